@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "bench_family.h"
 #include "campaign.h"
 #include "commands.h"
 #include "console.h"
@@ -16,6 +17,7 @@ namespace {
 
 struct BenchSettings {
   CampaignSettings campaign;
+  FamilyBenchSettings family;
   std::string folder = "dashpot-bench";
   bool list_sequences = false;
   LineSettings line;
@@ -34,7 +36,11 @@ constexpr std::string_view kBenchExample =
     "dashpot bench --damper mr1 --experiment one-sensor-2 --output stepped\n"
     "\n"
     "# A production line: 100 dampers, some of them faulty, for 'dashpot identify-many line':\n"
-    "dashpot bench --dampers 100 --motions 10x2 --levels 0,1 --cycles 2 --output line";
+    "dashpot bench --dampers 100 --motions 10x2 --levels 0,1 --cycles 2 --output line\n"
+    "\n"
+    "# A family: two builds of every drawing in a folder, with a fluid of your own:\n"
+    "dashpot bench --family drawings/ --builds 2 --fluid my_fluid.yaml --scatter 0.03 "
+    "--levels 0,0.5,1 --output family";
 
 int list_sequences(Console& console) {
   if (console.json)
@@ -53,8 +59,35 @@ std::string first_infinite(const Dataset& campaign) {
   return {};
 }
 
+int run_family(const BenchSettings& settings, Console& console) {
+  if (settings.campaign.damper != CampaignSettings().damper)
+    throw UsageError("--damper", "is not benched beside a family", "leave one of them out");
+  const FamilyBench made =
+      bench_family(settings.family, settings.campaign, settings.folder, console.command_line());
+  console.print(std::to_string(made.drawings) + " drawings, " + std::to_string(made.dampers) +
+                " dampers, " + std::to_string(made.records) + " records\n\nRecordings  " +
+                settings.folder + "/*.csv\nDrawings    " + settings.folder +
+                "/drawings/*.yaml, by manifest.csv\nConditions  " + made.statement.string() +
+                "\nNext        dashpot rank " + shell_quoted(settings.folder) +
+                " --models family --force-offset none\n");
+  if (console.json)
+    console.print_json(Value::object({{"folder", settings.folder},
+                                      {"dataset", made.statement.string()},
+                                      {"drawings", made.drawings},
+                                      {"dampers", made.dampers},
+                                      {"records", made.records}}));
+  return kDone;
+}
+
 int run_bench(const BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+  if (!settings.family.drawings.empty()) return run_family(settings, console);
+  const FamilyBenchSettings usual;
+  if (!settings.family.fluids.empty() || settings.family.builds != usual.builds ||
+      settings.family.scatter != usual.scatter || settings.family.asymmetry != 0 ||
+      settings.family.give != usual.give)
+    throw UsageError("--family", "is missing: fluids, builds and their scatter are a family's",
+                     "--family drawings/");
 
   if (settings.line.dampers > 0)
     return record_line(settings.line, settings.campaign, settings.folder, console);
@@ -104,6 +137,7 @@ Command bench_command() {
                   .example = std::string(kBenchExample),
                   .run = [settings](Console& console) { return run_bench(*settings, console); }};
 
+  append(command.options, family_bench_options(settings->family));
   command.options.push_back({.names = "-o,--output",
                              .target = &settings->folder,
                              .help = "folder for the recordings",

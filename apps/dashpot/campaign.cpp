@@ -36,16 +36,8 @@ std::vector<double> levels_over(double low, double high) {
   return levels;
 }
 
-std::string drive_column(const Dataset& campaign) {
-  return campaign.drive_unit == DriveUnit::Volt ? "voltage_V" : "current_A";
-}
-
-std::string file_name(const Record& record) {
-  std::string name = record.name + ".csv";
-  std::erase(name, ',');
-  std::ranges::replace(name, ' ', '_');
-  std::ranges::replace(name, '/', '-');
-  return name;
+std::string drive_column(DriveUnit drive_unit) {
+  return drive_unit == DriveUnit::Volt ? "voltage_V" : "current_A";
 }
 
 /// A column as a real bench would record it.
@@ -55,30 +47,6 @@ struct Column {
   double factor = 1;
   int digits = 9;  ///< more than any sensor has
 };
-
-std::string csv_of(const Record& record, const Dataset& campaign) {
-  constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
-  const std::string drive = drive_channel(campaign.drive_unit);
-
-  // A bench has time, motion, force and drive; velocity only where it was measured.
-  std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
-                              {"x_mm", record.channel("displacement").samples, 1000},
-                              {"F_N", record.channel("force").samples},
-                              {drive_column(campaign), record.channel(drive).samples}};
-  const Channel& velocity = record.channel("velocity");
-  if (!velocity.origin.starts_with("derived")) columns.push_back({"v_m/s", velocity.samples});
-
-  // The header names channel and unit as the reader of recordings expects them.
-  std::string text;
-  for (const Column& column : columns) text += (text.empty() ? "" : ",") + column.title;
-  text += '\n';
-
-  for (std::size_t k = 0; k < record.size(); ++k)
-    for (const Column& column : columns)
-      text += format_number(column.factor * column.samples[k], column.digits) +
-              (&column == &columns.back() ? '\n' : ',');
-  return text;
-}
 
 /// The notes that a real bench would have of its tests, as YAML; the true offsets stay in comments.
 std::string public_notes(const Dataset& campaign) {
@@ -103,7 +71,7 @@ std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper,
       "\nfiles:\n";
   for (const Record& record : campaign.records) {
     text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n",
-                        yaml_string(file_name(record)), yaml_comment(record.notes.front()),
+                        yaml_string(recording_file(record)), yaml_comment(record.notes.front()),
                         yaml_string(record.name), yaml_string(record.condition));
     if (record.drive_level) text += "    level: " + format_exact(*record.drive_level) + '\n';
   }
@@ -125,8 +93,7 @@ void require_consistent(const CampaignSettings& settings) {
 
 /// The levels asked for; else the damper's own, where it has some, or five over its range.
 std::vector<double> drive_levels(const CampaignSettings& settings, const ParameterSet& damper) {
-  std::vector<double> levels;
-  for (const std::string& level : settings.levels) levels.push_back(parse_level(level));
+  std::vector<double> levels = stated_levels(settings);
   if (!levels.empty()) return levels;
   return damper.drive_levels.empty() ? levels_over(damper.drive_min, damper.drive_max)
                                      : damper.drive_levels;
@@ -138,14 +105,7 @@ std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const Pa
   if (!settings.experiment.empty())
     return experiment_tests(settings.experiment, damper, options.seed);
 
-  // The motions: sines, or one sequence in place of them.
-  options.motions.clear();
-  for (const std::string& motion : settings.motions)
-    options.motions.push_back(parse_motion(motion));
-  const std::vector<BenchTest> motions =
-      settings.motion.empty()
-          ? bench_sines(options)
-          : std::vector{sequence_test(settings.motion, options.seed, "--motion")};
+  const std::vector<BenchTest> motions = campaign_motions(settings, options);
 
   // Each motion runs under each drive: one sequence, or every level.
   const DriveFrame frame{.low = damper.drive_min, .high = damper.drive_max, .seed = options.seed};
@@ -162,6 +122,52 @@ std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const Pa
 }
 
 }  // namespace
+
+std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchOptions options) {
+  if (!settings.motion.empty()) return {sequence_test(settings.motion, options.seed, "--motion")};
+  options.motions.clear();
+  for (const std::string& motion : settings.motions)
+    options.motions.push_back(parse_motion(motion));
+  return bench_sines(options);
+}
+
+std::vector<double> stated_levels(const CampaignSettings& settings) {
+  std::vector<double> levels;
+  for (const std::string& level : settings.levels) levels.push_back(parse_level(level));
+  return levels;
+}
+
+std::string recording_file(const Record& record) {
+  std::string name = record.name + ".csv";
+  std::erase(name, ',');
+  std::ranges::replace(name, ' ', '_');
+  std::ranges::replace(name, '/', '-');
+  return name;
+}
+
+std::string recording_csv(const Record& record, DriveUnit drive_unit) {
+  constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
+  const std::string drive = drive_channel(drive_unit);
+
+  // A bench has time, motion, force and drive; velocity only where it was measured.
+  std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
+                              {"x_mm", record.channel("displacement").samples, 1000},
+                              {"F_N", record.channel("force").samples},
+                              {drive_column(drive_unit), record.channel(drive).samples}};
+  const Channel& velocity = record.channel("velocity");
+  if (!velocity.origin.starts_with("derived")) columns.push_back({"v_m/s", velocity.samples});
+
+  // The header names channel and unit as the reader of recordings expects them.
+  std::string text;
+  for (const Column& column : columns) text += (text.empty() ? "" : ",") + column.title;
+  text += '\n';
+
+  for (std::size_t k = 0; k < record.size(); ++k)
+    for (const Column& column : columns)
+      text += format_number(column.factor * column.samples[k], column.digits) +
+              (&column == &columns.back() ? '\n' : ',');
+  return text;
+}
 
 CampaignSettings::CampaignSettings() {
   bench.velocity_noise = one_sensor_bench({}).velocity_noise;
@@ -255,7 +261,7 @@ Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& dampe
 fs::path write_campaign(const Dataset& campaign, const ParameterSet& damper, const fs::path& folder,
                         const std::string& command) {
   for (const Record& record : campaign.records)
-    write_file(folder / file_name(record), csv_of(record, campaign));
+    write_file(folder / recording_file(record), recording_csv(record, campaign.drive_unit));
   const fs::path statement = folder / "dataset.yaml";
   write_file(statement, dataset_yaml(campaign, damper, command));
   return statement;

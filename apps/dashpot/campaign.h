@@ -34,4 +34,12 @@ std::filesystem::path write_campaign(const Dataset& campaign, const ParameterSet
                                      const std::filesystem::path& folder,
                                      const std::string& command);
 
+/// The motions asked for, which lack their drive: sines, or one sequence.
+std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchOptions options);
+/// The levels asked for; none: none.
+std::vector<double> stated_levels(const CampaignSettings& settings);
+/// The name and the text of a record's CSV file, as a real bench would leave it.
+std::string recording_file(const Record& record);
+std::string recording_csv(const Record& record, DriveUnit drive_unit);
+
 }  // namespace dashpot::cli

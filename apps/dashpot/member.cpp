@@ -9,10 +9,10 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/physics/damper_description.h"
 #include "dashpot/dataset.h"
 #include "dashpot/identify/fit/family_build.h"
 #include "dashpot/model_file.h"
+#include "dashpot/physics/damper_description.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -37,10 +37,11 @@ constexpr std::string_view kMemberExample =
     "dashpot member results/models/family_physics.json --damper my_damper.yaml --recording "
     "short_test.csv -o build.json";
 
+/// The drawn damper, whose coil and fluid tell its yield stress at every current.
 DamperDescription description_of(const std::string& damper) {
-  const std::vector<std::string> known = description_names();
-  return std::ranges::find(known, damper) != known.end() ? named_description(damper)
-                                                         : load_description(damper);
+  const DamperDescription description = find_description(damper);
+  require_field(description, damper);
+  return description;
 }
 
 Conditions changes_of(const MemberSettings& settings) {
@@ -50,10 +51,14 @@ Conditions changes_of(const MemberSettings& settings) {
     if (equals == std::string::npos)
       throw UsageError("--set", "'" + change + "' has no value; write gap=1.2mm");
     const std::string name(trim(change.substr(0, equals)));
+    if (name == kYieldStress)
+      throw UsageError("--set", "yield_stress would be the same at any current, without one too",
+                       "a drawing, whose coil and fluid give it at every current: --damper "
+                       "my_damper.yaml");
 
     // A number without a unit is taken in the unit of its field.
-    std::string unit = name == kYieldStress ? "Pa" : "";
-    std::vector<std::string> known{std::string(kYieldStress)};
+    std::string unit;
+    std::vector<std::string> known;
     for (const MemberField& field : member_fields()) {
       known.emplace_back(field.name);
       if (field.name == name) unit = field.unit;
@@ -187,7 +192,7 @@ Command member_command() {
                    .takes = Takes::File},
                   {.names = "--set",
                    .target = &settings->changes,
-                   .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
+                   .help = "the damper's numbers, as gap=1.25mm,build=1",
                    .value = "LIST"},
                   {.names = "--recording",
                    .target = &settings->recording,

@@ -26,8 +26,8 @@ struct IdentifyOptions {
   NetworkDesign network;    ///< networks only
   int starts = 4;           ///< of which the best is taken
   int search = 0;           ///< evaluations of a global search that gives one more start; 0: none
-  /// Laws, also within hybrids: models of the same law and forms, whose numbers are the first start
-  /// of its fit; with `starts` = 1 and no `search` the only one.
+  /// Laws, also within hybrids: models of the same law, whose numbers are the first start of its
+  /// fit; with `starts` = 1 and no `search` the only one.
   std::vector<std::shared_ptr<const DamperModel>> from = {};
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has

@@ -128,3 +128,64 @@ TEST_CASE("bench: sequences that cannot be run are refused") {
   refused("--motion AM --motions 5x2", 2, "--motions");
   refused("--drive SC --levels 1", 2, "--levels");
 }
+
+TEST_CASE(
+    "bench --family: drawings become a campaign that a family is ranked on in three commands") {
+  const TemporaryFolder folder;
+  const std::string drawings = (folder.path() / "drawings").string(),
+                    campaign = (folder.path() / "campaign").string(),
+                    ranked = (folder.path() / "ranked").string();
+  for (const int gap : {10, 14})
+    for (const int length : {6, 10})
+      folder.write("drawings/g" + std::to_string(gap) + "_l" + std::to_string(length) + ".yaml",
+                   "fluid: 140CG\nbore_diameter: 30 mm\nrod_diameter: 10 mm\ngap: " +
+                       std::to_string(0.1 * gap) + " mm\npole_length: " + std::to_string(length) +
+                       " mm\npassive_length: 0\ncore_area: 150 mm^2\nfriction: 15 N\n");
+
+  const ProgramResult benched = run_dashpot(
+      "bench --family " + drawings +
+      " --builds 2 --scatter 0.02 --levels 0,1 --motions 10x1 --cycles 1 --sample-rate 40 "
+      "--zero-drift 0 -o " +
+      campaign);
+  CHECK_MESSAGE(benched.exit_code == 0, benched.output);
+  CHECK(contains(benched.output, "4 drawings, 8 dampers, 16 records"));
+  const ProgramResult inspected = run_dashpot("inspect " + campaign);
+  CHECK(contains(inspected.output, "as drawn"));
+
+  const ProgramResult ranking = run_dashpot(
+      "rank " + campaign +
+      " --models family_physics,family_line,bingham --starts 1 --force-offset none -o " + ranked);
+  CHECK_MESSAGE(ranking.exit_code == 0, ranking.output);
+  const std::size_t physics = ranking.output.find("family_physics"),
+                    blind = ranking.output.find("bingham");
+  CHECK(physics < blind);
+
+  // A new drawing is a member, at every current by its own coil and fluid.
+  const ProgramResult member =
+      run_dashpot("member " + ranked + "/models/family_physics.json --damper " + campaign +
+                  "/drawings/g14_l6.yaml -o " + (folder.path() / "m.json").string());
+  CHECK_MESSAGE(member.exit_code == 0, member.output);
+  CHECK(!contains(member.output, "extrapolates"));
+}
+
+TEST_CASE("bench --family: what cannot be benched is refused") {
+  const TemporaryFolder folder;
+  const std::string good = folder.write("good.yaml", "gap: 1 mm\n").string();
+  folder.write("bad.yaml", "gap: 40 mm\n");
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const ProgramResult result =
+        run_dashpot("bench " + arguments + " -o " + (folder.path() / "out").string());
+    CAPTURE(arguments);
+    CHECK_MESSAGE(contains(result.output, words), result.output);
+    CHECK(result.exit_code != 0);
+  };
+  refused("--family " + good + " --fluid 140CH", "unknown fluid '140CH'");
+  refused("--family " + (folder.path() / "bad.yaml").string(), "gap is 0.04 m");
+  refused("--family " + good + "," + good, "two drawings are called good");
+  refused("--family " + good + " --drive PRBS", "stated per record");
+  refused("--family " + good + " --damper mr1", "beside a family");
+  refused("--family " + good + " --asymmetry 2", "between -1 and 1");
+  refused("--fluid 140CG", "--family");
+  refused("--family " + (folder.path() / "none").string(), "none");
+  CHECK(!std::filesystem::exists(folder.path() / "out"));
+}

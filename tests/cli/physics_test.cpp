@@ -1,4 +1,6 @@
-#include "dashpot/damper/physics/damper_physics.h"
+#include <cmath>
+
+#include "dashpot/physics/damper_physics.h"
 #include "dashpot/value.h"
 #include "program.h"
 
@@ -25,4 +27,51 @@ TEST_CASE("physics: fields can be changed, listed, and are refused with their na
   CHECK(contains(run_dashpot("physics passenger_car --current much").output, "is not a number"));
   CHECK(run_dashpot("physics no_such.yaml").exit_code == 1);
   CHECK(run_dashpot("physics").exit_code == 2);
+}
+
+TEST_CASE("physics: a fluid and a steel of one's own, and overrides that no current changes") {
+  const TemporaryFolder folder;
+  const std::string fluid =
+      folder
+          .write("mine.yaml",
+                 "name: mine\ndensity: 3000\nviscosity: 0.1\nlaws: {measured: {field: "
+                 "{volume_fraction: 0.3}, yield_stress: {points: [[0, 100], [2e+5, 4e+4]]}}}\n"
+                 "uncertainty: {yield_stress: 10 %}\n")
+          .string();
+  const ProgramResult own = run_dashpot("physics passenger_car --steel 1010 --fluid " + fluid);
+  CHECK(own.exit_code == 0);
+  CHECK(contains(own.output, "with mine"));
+  CHECK(contains(own.output, "flux density of 1010"));
+  CHECK(contains(own.output, "force +-"));
+  CHECK(run_dashpot("physics passenger_car --steel soft_knee").output ==
+        run_dashpot("physics passenger_car").output);
+  const ProgramResult fixed = run_dashpot("physics passenger_car --set yield_stress=20kPa");
+  CHECK(fixed.exit_code == 1);
+  CHECK(contains(fixed.output, "that no current changes"));
+  CHECK(contains(run_dashpot("physics passenger_car --fluid 122EF").output, "did you mean"));
+  CHECK(run_dashpot("physics passenger_car -o x.yaml").exit_code == 2);
+}
+
+TEST_CASE("physics: recordings of a drawn damper calibrate it, and the drawing is read again") {
+  const TemporaryFolder folder;
+  const std::string data = small_campaign().string(),
+                    made = (folder.path() / "calibrated.yaml").string();
+  const ProgramResult done =
+      run_dashpot("physics passenger_car --recordings " + data + " -o " + made);
+  // The campaign is of a damper in volts, which no coil current tells.
+  CHECK(done.exit_code == 1);
+  CHECK(contains(done.output, "is driven by V"));
+
+  std::string text = "time [s],displacement [mm],velocity [mm/s],current [A],force [N]\n";
+  for (int k = 0; k <= 400; ++k) {
+    const double phase = 0.0314159265 * k, speed = std::sin(phase);
+    text += std::to_string(0.005 * k) + "," + std::to_string(-16 * std::cos(phase)) + "," +
+            std::to_string(100 * speed) + ",1," + std::to_string(900 * std::tanh(8 * speed)) + "\n";
+  }
+  const std::string one = folder.write("one.csv", text).string();
+  const ProgramResult found =
+      run_dashpot("physics passenger_car --recordings " + one + " -o " + made);
+  CHECK_MESSAGE(found.exit_code == 0, found.output);
+  CHECK(contains(found.output, "in series with the flow"));
+  CHECK(run_dashpot("physics " + made).exit_code == 0);
 }

@@ -4,10 +4,10 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/damper/physics/damper_physics.h"
 #include "dashpot/design/design_problem.h"
 #include "dashpot/export/c/law_equations.h"
 #include "dashpot/model_file.h"
+#include "dashpot/physics/damper_physics.h"
 #include "fuzz.h"
 
 // Files of models, of inverses and of dampers.

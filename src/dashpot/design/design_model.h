@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/physics/damper_physics.h"
 #include "dashpot/model_file.h"
+#include "dashpot/physics/damper_physics.h"
 
 namespace dashpot {
 

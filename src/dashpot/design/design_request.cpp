@@ -18,10 +18,10 @@ double positive(double value, const Value& at, const std::string& what) {
   throw Error(at.where(), what + " is " + format_number(value), "more than 0");
 }
 
-DesignVariable read_fluids(const Value& value) {
+DesignVariable read_fluids(const Value& value, const std::filesystem::path& folder) {
   DesignVariable variable;
   for (const Value& item : value.items())
-    variable.fluids.push_back(&find_fluid(item.as_string(), item.where()));
+    variable.fluids.push_back(find_fluid(item.as_string(), item.where(), folder));
   if (variable.fluids.empty())
     throw Error(value.where(), "no fluid to choose from", "[122EG, 132DG]");
   return variable;
@@ -51,8 +51,9 @@ void read_range(const Value& value, DesignVariable& variable) {
     throw Error(value.where(), "the step of " + variable.name() + " is too small for its range");
 }
 
-DesignVariable read_variable(const std::string& name, const Value& value) {
-  if (name == "fluid") return read_fluids(value);
+DesignVariable read_variable(const std::string& name, const Value& value,
+                             const std::filesystem::path& folder) {
+  if (name == "fluid") return read_fluids(value, folder);
   DesignVariable variable;
   variable.field = &find_description_field(name, value.where());
   if (value.kind() == Value::Kind::Object) {
@@ -188,6 +189,13 @@ void require_consistent(const DesignRequest& request, const std::string& source)
   if (request.variables.empty())
     throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
   if (request.goals.empty()) throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
+  for (const DesignVariable& variable : request.variables)
+    for (const std::shared_ptr<const Fluid>& fluid : variable.fluids)
+      if (!fluid->law(request.damper.yield_law))
+        throw Error(source,
+                    fluid->name + " has no yield stress '" + request.damper.yield_law +
+                        "', which the damper asks for",
+                    "another fluid, or another `yield` of the damper");
   for (const FollowingField& following : request.following) {
     const std::string name(following.field->name);
     if (varies(request, following.field))
@@ -254,7 +262,7 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
 
   // The fields that vary and those that follow them, and how exactly parts are made.
   each_member(reader, "vary", [&](const std::string& name, const Value& value) {
-    request.variables.push_back(read_variable(name, value));
+    request.variables.push_back(read_variable(name, value, folder));
   });
   each_member(reader, "follow", [&](const std::string& name, const Value& value) {
     request.following.push_back(read_following(name, value));

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +15,7 @@ struct DesignVariable {
   const DescriptionField* field = nullptr;  ///< nullptr: the fluid
   double from = 0, to = 0, step = 0;        ///< step 0: any value
   std::vector<double> values;               ///< a choice of numbers
-  std::vector<const Fluid*> fluids;
+  std::vector<std::shared_ptr<const Fluid>> fluids;
 
   std::string name() const { return field ? std::string(field->name) : "fluid"; }
   /// Values that can be chosen; 0: any of the range.

@@ -7,9 +7,9 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/design/design_model.h"
 #include "dashpot/error.h"
+#include "dashpot/physics/plate_flow.h"
 
 namespace dashpot {
 namespace {

@@ -7,7 +7,7 @@ file(GLOB DASHPOT_C_TEXTS CONFIGURE_DEPENDS
   ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/suspension/control/c_text/*.h
   ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/laws/*.h)
 foreach(name fluid_curves magnetic_circuit plate_flow)
-  list(APPEND DASHPOT_C_TEXTS ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/physics/${name}.h)
+  list(APPEND DASHPOT_C_TEXTS ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/physics/${name}.h)
 endforeach()
 set(DASHPOT_C_TEXTS_SOURCE ${CMAKE_CURRENT_BINARY_DIR}/c_texts.cpp)
 set(DASHPOT_C_TEXTS_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_c_texts.cmake)

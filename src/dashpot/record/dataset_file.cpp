@@ -169,6 +169,24 @@ double read_condition(const Value& value) {
   return unit.factor * *number + unit.offset;
 }
 
+/// A condition in a column of the manifest: {manifest: gap}, {manifest: gap, unit: mm}.
+ManifestCondition read_manifest_condition(const std::string& name, const Value& value) {
+  ObjectReader reader(value, "a condition");
+  ManifestCondition condition{name, reader.string("manifest"), reader.string("unit", ""),
+                              value.where()};
+  if (!condition.unit.empty()) require_unit(condition.unit, reader.required("unit").where());
+  reader.finish();
+  return condition;
+}
+
+DrawingStatement read_drawing(const Value& value) {
+  if (value.kind() != Value::Kind::Object) return {value.as_string(), "", value.where()};
+  ObjectReader reader(value, "a drawing");
+  DrawingStatement drawing{"", reader.string("manifest"), value.where()};
+  reader.finish();
+  return drawing;
+}
+
 RoleStatement read_role(const Value& value) {
   ObjectReader reader(value, "a role");
   RoleStatement role;
@@ -220,9 +238,15 @@ FileStatement read_files(const Value& value) {
   out.name = reader.string("name", "");
   out.condition = reader.string("condition", "");
   if (const Value* level = reader.optional("level")) out.level = read_level(*level);
-  if (const Value* conditions = reader.optional("conditions"))
-    for (const auto& [name, condition] : conditions->members())
-      out.conditions.emplace_back(name, read_condition(condition));
+  if (const Value* conditions = reader.optional("conditions")) {
+    for (const auto& [name, condition] : conditions->members()) {
+      if (condition.kind() == Value::Kind::Object)
+        out.manifest_conditions.push_back(read_manifest_condition(name, condition));
+      else
+        out.conditions.emplace_back(name, read_condition(condition));
+    }
+  }
+  if (const Value* drawing = reader.optional("damper")) out.drawing = read_drawing(*drawing);
   if (const Value* roles = reader.optional("roles")) out.roles = read_roles(*roles);
   reader.finish();
   return out;

@@ -35,6 +35,20 @@ struct RoleStatement {
 /// A drive level: a number, one number per part of the file, or a column of the manifest.
 using LevelStatement = std::variant<std::monostate, double, std::vector<double>, std::string>;
 
+/// A condition that stands in a column of the manifest.
+struct ManifestCondition {
+  std::string name, column;
+  std::string unit;  ///< "": from the column's name
+  std::string where;
+};
+
+/// The drawing of the damper that a record is of: a file beside the dataset file or, in a column of
+/// the manifest, beside that; or a damper that comes with Dashpot.
+struct DrawingStatement {
+  std::string file, column;  ///< one of the two; both "": none is stated
+  std::string where;
+};
+
 /// What a dataset file states about the files that one set of patterns matches. What it does not
 /// state is inferred.
 struct FileStatement {
@@ -51,6 +65,8 @@ struct FileStatement {
   std::string condition;          ///< template; "" : inferred
   LevelStatement level;
   std::vector<std::pair<std::string, double>> conditions;  ///< SI
+  std::vector<ManifestCondition> manifest_conditions;
+  DrawingStatement drawing;
   std::vector<RoleStatement> roles;
   bool states_nothing = false;  ///< 'match' is all: read as without a dataset file
   std::string where;

@@ -13,6 +13,7 @@
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/record/sources.h"
+#include "dashpot/record/stated_conditions.h"
 #include "dashpot/record/stretches.h"
 
 namespace fs = std::filesystem;
@@ -97,6 +98,9 @@ class Loader {
     if (!dataset_.citation.empty() && !stated.citation.empty()) dataset_.citation += "; ";
     dataset_.citation += stated.citation;
     dataset_.notes.insert(dataset_.notes.end(), stated.notes.begin(), stated.notes.end());
+    conditions_ = StatedConditions(manifest_, fs::path(stated.path).parent_path());
+    dataset_.notes.insert(dataset_.notes.end(), conditions_.notes().begin(),
+                          conditions_.notes().end());
 
     // What holds for all records together may be stated once.
     if (drive_unit_ && stated.drive_unit && *drive_unit_ != *stated.drive_unit)
@@ -223,6 +227,7 @@ class Loader {
       return false;
     }
 
+    conditions_.add(built.record, file, statement);
     if (built.centred) centred_.push_back(*built.centred);
     if (!built.drive_note.empty()) drive_notes_.push_back(file.relative + ": " + built.drive_note);
     built.record.condition = condition.empty() ? group : condition;
@@ -488,6 +493,7 @@ class Loader {
   const LoadOptions& options_;
   Sources sources_;  ///< of the folder that is being read
   Manifest manifest_;
+  StatedConditions conditions_;
   std::string stated_in_;
   Dataset dataset_;
   std::size_t file_count_ = 0;           ///< of all folders

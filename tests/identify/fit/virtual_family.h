@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "dashpot/base/random.h"
-#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/dataset.h"
+#include "dashpot/physics/plate_flow.h"
 
 namespace dashpot {
 

@@ -12,7 +12,7 @@
  */
 #ifndef DASHPOT_LAW_COMPRESSIBLE_CHAMBERS_H
 #define DASHPOT_LAW_COMPRESSIBLE_CHAMBERS_H
-#include "../physics/plate_flow.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct CompressibleChambers {
   double c0;  /* N*s/m, damping without yield stress */

@@ -10,7 +10,7 @@
  */
 #ifndef DASHPOT_LAW_ELASTOPLASTIC_H
 #define DASHPOT_LAW_ELASTOPLASTIC_H
-#include "../physics/plate_flow.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct Elastoplastic {
   double c0;  /* N*s/m, viscous damping */

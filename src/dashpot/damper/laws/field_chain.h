@@ -13,8 +13,8 @@
  */
 #ifndef DASHPOT_LAW_FIELD_CHAIN_H
 #define DASHPOT_LAW_FIELD_CHAIN_H
-#include "../physics/magnetic_circuit.h"
-#include "../physics/plate_flow.h"
+#include "../../physics/magnetic_circuit.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct FieldChain {
   double c0;           /* N*s/m, damping without yield stress */

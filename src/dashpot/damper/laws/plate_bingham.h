@@ -14,7 +14,7 @@
  */
 #ifndef DASHPOT_LAW_PLATE_BINGHAM_H
 #define DASHPOT_LAW_PLATE_BINGHAM_H
-#include "../physics/plate_flow.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct PlateBingham {
   double c0;  /* N*s/m, damping without yield stress */

@@ -14,7 +14,7 @@
  */
 #ifndef DASHPOT_LAW_PLATE_BINGHAM_MIXED_H
 #define DASHPOT_LAW_PLATE_BINGHAM_MIXED_H
-#include "../physics/plate_flow.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct PlateBinghamMixed {
   double c0;  /* N*s/m, damping of the flow without yield stress, walls at rest */

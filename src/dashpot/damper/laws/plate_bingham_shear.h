@@ -11,7 +11,7 @@
  */
 #ifndef DASHPOT_LAW_PLATE_BINGHAM_SHEAR_H
 #define DASHPOT_LAW_PLATE_BINGHAM_SHEAR_H
-#include "../physics/plate_flow.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct PlateBinghamShear {
   double c0;  /* N*s/m, viscous damping */

@@ -13,7 +13,7 @@
  */
 #ifndef DASHPOT_LAW_PLATE_HERSCHEL_BULKLEY_H
 #define DASHPOT_LAW_PLATE_HERSCHEL_BULKLEY_H
-#include "../physics/plate_flow.h"
+#include "../../physics/plate_flow.h"
 
 typedef struct PlateHerschelBulkley {
   double f_v; /* N, force at speed v_r without yield stress */

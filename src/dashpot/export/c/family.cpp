@@ -2,10 +2,10 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/physics/plate_flow.h"
 
 namespace dashpot {
 namespace {

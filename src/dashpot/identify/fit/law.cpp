@@ -38,17 +38,11 @@ std::vector<double> searched_start(const LawTask& task, const LeastSquaresProble
                        task.options.seed);
 }
 
-/// The model that the fit of this task starts from first; null where none of the same law and
-/// forms is named.
+/// The model that the fit of this task starts from first; null where none of this law is named.
 const LawModel* stated_start(const LawTask& task) {
-  const auto fits = [&](const LawModel& model) {
-    if (model.law().name != task.law.name) return false;
-    for (std::size_t p = 0; p < task.law.params.size(); ++p)
-      if (model.parameters().forms[p] != task.unknowns.form_of(p)) return false;
-    return true;
-  };
   for (const auto& model : task.options.from)
-    if (const LawModel* start = model->law_inside(); start && fits(*start)) return start;
+    if (const LawModel* start = model->law_inside(); start && start->law().name == task.law.name)
+      return start;
   return nullptr;
 }
 

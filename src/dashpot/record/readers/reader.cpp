@@ -24,7 +24,8 @@ constexpr Reader kReaders[] = {
     {"MDF 4", ".mf4 .mdf", is_mdf4, read_mdf4},
     {"TDMS", ".tdms", is_tdms, read_tdms},
     {"XLSX", ".xlsx .xlsm", is_xlsx, read_xlsx},
-    {"family JSON", ".json with its inp_*.json", is_family_json, read_family_json},
+    {"family JSON", ".json of dampers and levels, or with its inp_*.json", is_family_json,
+     read_family_json},
     {"DAQ text log", ".txt", is_daq_text, read_daq_text},
     {"CSV", ".csv .txt .tsv .dat .asc", is_csv, read_csv},
 };

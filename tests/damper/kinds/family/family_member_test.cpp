@@ -1,6 +1,6 @@
 #include "dashpot/damper/kinds/family/family_member.h"
 
-#include "dashpot/damper/physics/damper_physics.h"
+#include "dashpot/physics/damper_physics.h"
 #include "example_family.h"
 #include "support.h"
 

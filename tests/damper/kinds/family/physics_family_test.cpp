@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/model_file.h"
+#include "dashpot/physics/plate_flow.h"
 #include "example_family.h"
 #include "support.h"
 

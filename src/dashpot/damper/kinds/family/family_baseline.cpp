@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
-#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/error.h"
+#include "dashpot/physics/plate_flow.h"
 
 namespace dashpot {
 namespace {

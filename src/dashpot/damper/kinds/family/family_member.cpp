@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
-#include "dashpot/damper/physics/damper_physics.h"
 #include "dashpot/error.h"
+#include "dashpot/physics/damper_physics.h"
 
 namespace dashpot {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/error.h"
+#include "dashpot/physics/plate_flow.h"
 
 namespace dashpot {
 namespace {
@@ -51,6 +51,7 @@ constexpr std::array<PhysicsNumber, kPhysicsNumbers> kTable{{
 /// A friction or a plate flow: the force it has at a speed, over that speed.
 struct Resistance {
   double yielding, viscous;  // N, N s/m; a seal has no viscous part
+  double passive = 0;        // N s/m, beside them in the same flow
   struct Value {
     double value, slope;  // N s/m, and its derivative by the speed
   };
@@ -59,7 +60,7 @@ struct Resistance {
     // The slope of the pressure p follows from its cubic, p^3 - (N + 3/2 Y) p^2 + Y^3 / 2 = 0.
     const double newtonian = viscous * speed, p = plate_bingham_pressure(newtonian, yielding);
     const double slope = p / (3 * p - 2 * (newtonian + 1.5 * yielding));
-    return {p / speed, (viscous * slope - p / speed) / speed};
+    return {p / speed + passive, (viscous * slope - p / speed) / speed};
   }
 };
 
@@ -74,7 +75,8 @@ double balanced_force(const Resistance& resistance, double pull, double spring, 
   if (!(own > 0)) return u * resistance.at(std::sqrt(rest)).value;
 
   // A resistance that has yielded leaves the rest of the pull to spring and viscous flow.
-  u = std::max(u, (pull - resistance.yielding / std::sqrt(own)) / (spring + resistance.viscous));
+  u = std::max(u, (pull - resistance.yielding / std::sqrt(own)) /
+                      (spring + resistance.viscous + resistance.passive));
   for (int k = 0; k < kSteps; ++k) {
     const double s = std::sqrt(rest + own * u * u);
     const Resistance::Value r = resistance.at(s);
@@ -199,19 +201,19 @@ void advance_element(const FamilyPhysics::Element& e, double from, double to, do
 
   // Each force with its spring: both stages are a balance of the same shape.
   const auto step = [&](double& force, double stiffness, double yielding, double viscous,
-                        double asymmetry) {
+                        double asymmetry, double passive) {
     const double spring = kStage * dt * stiffness;
     const auto balance = [&](double pull, double rest) {
       const double side = pull < 0 ? -1 : 1, factor = 1 + side * asymmetry;
-      const Resistance resistance{yielding * factor, viscous * factor};
+      const Resistance resistance{yielding * factor, viscous * factor, passive * factor};
       return side * balanced_force(resistance, std::abs(pull), spring, rest, 1 - e.memory);
     };
     const double middle = balance(force + spring * (from + kStage * (to - from)), first);
     const double rate = (middle - force) / (kStage * dt);
     force = balance(force + (1 - kStage) * dt * rate + spring * to, second);
   };
-  step(state[0], e.seal_stiffness, e.seal, 0, 0);
-  step(state[1], e.stiffness, e.yielding, e.viscous, e.asymmetry);
+  step(state[0], e.seal_stiffness, e.seal, 0, 0, 0);
+  step(state[1], e.stiffness, e.yielding, e.viscous, e.asymmetry, e.passive);
 }
 
 PhysicsFamily::PhysicsFamily(FamilyPhysics physics, const std::string& where)

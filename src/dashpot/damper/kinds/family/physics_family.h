@@ -79,7 +79,8 @@ struct FamilyPhysics {
     double seal = 0, seal_stiffness = 0;              ///< N, N/m
     double yielding = 0, viscous = 0, stiffness = 0;  ///< N, N s/m, N/m
     double asymmetry = 0, memory = 0, slow = 0, time = 1;
-    double offset = 0;  ///< N, of this build
+    double offset = 0;   ///< N, of this build
+    double passive = 0;  ///< N s/m, of gaps without field in the same flow
   };
   Element element(const FamilyMember& member, double current) const noexcept;
   /// The numbers without data.

@@ -1,4 +1,4 @@
-#include "dashpot/damper/physics/damper_description.h"
+#include "dashpot/physics/damper_description.h"
 
 #include <algorithm>
 #include <array>
@@ -80,9 +80,6 @@ struct LawWord {
   std::string_view word;
   Law law;
 };
-constexpr std::array kYieldLaws{LawWord{"carlson", YieldLaw::Carlson},
-                                LawWord{"paper", YieldLaw::Paper},
-                                LawWord{"data_set", YieldLaw::DataSet}};
 constexpr std::array kCircuitLaws{LawWord{"filled", CircuitLaw::Filled},
                                   LawWord{"paper", CircuitLaw::Paper}};
 constexpr std::array kFlowLaws{LawWord{"plate", FlowLaw::Plate},
@@ -123,7 +120,7 @@ void require_within(double value, const DescriptionField& field, const std::stri
 
 }  // namespace
 
-DamperDescription::DamperDescription() : fluid(&find_fluid("132DG")) {
+DamperDescription::DamperDescription() : fluid(find_fluid("132DG")) {
   for (const DescriptionField& field : kFields) this->*field.field = field.value;
 }
 
@@ -160,9 +157,40 @@ void require_possible(const DamperDescription& d, const std::string& where) {
         "no piston is left between slot or rod, gap and a bore of " + millimetres(d.bore_diameter),
         "a wider bore or a smaller gap");
 
-  if (d.yield_law != YieldLaw::Carlson && !d.fluid->family)
-    throw Error(where, "the family paper has no yield stress of " + std::string(d.fluid->name),
-                "yield: carlson, or fluid: 122EG or 140CG");
+  const double across = 2 * d.gap;
+  if (across >= d.bore_diameter)
+    throw Error(where,
+                "the gap of " + millimetres(d.gap) +
+                    " on either side leaves nothing of a bore of " + millimetres(d.bore_diameter),
+                "a smaller gap or a wider bore");
+
+  // The fluid has the law that is asked for, and the equations know a fluid of its kind.
+  if (!d.fluid->law(d.yield_law)) {
+    std::vector<std::string> known;
+    for (const FluidLaw& law : d.fluid->laws) known.push_back(law.name);
+    throw Error(where, d.fluid->name + " has no yield stress '" + d.yield_law + "'",
+                "yield: " + join(known, " or ") + ", or a fluid that has it");
+  }
+  if (d.fluid->index != 1 && d.flow_law != FlowLaw::Plate)
+    throw Error(where,
+                d.fluid->name + " is a Herschel-Bulkley fluid, which this flow does not take",
+                "flow: plate");
+  if (d.fluid->viscosities.size() > 1 && d.viscosity_exponent > 0)
+    throw Error(
+        where,
+        "viscosity_exponent stands beside the viscosities over temperature of " + d.fluid->name,
+        "one of the two");
+  if (d.steel && !d.steel->points.empty() && d.circuit_law == CircuitLaw::Paper)
+    throw Error(where, "the paper's circuit has no B-H curve, but permeability and saturation",
+                "circuit: filled");
+}
+
+void require_field(const DamperDescription& d, const std::string& where) {
+  if (!(d.yield_stress > 0)) return;
+  throw Error(where,
+              "yield_stress is " + format_number(d.yield_stress) +
+                  " Pa at any current, without one too: a damper that no current changes",
+              "a fluid whose file states its yield stress over the field (--fluid mine.yaml)");
 }
 
 DamperDescription parse_description(std::string_view text, const std::string& source) {
@@ -170,11 +198,25 @@ DamperDescription parse_description(std::string_view text, const std::string& so
   ObjectReader reader(document, "a damper description");
   DamperDescription description;
   description.name = reader.string("name", "");
+
+  // Fluid and steel: by name, by a file beside this one, or whole.
+  const std::filesystem::path folder = std::filesystem::path(source).parent_path();
   if (const Value* fluid = reader.optional("fluid"))
-    description.fluid = &find_fluid(fluid->as_string(), fluid->where());
+    description.fluid = fluid->kind() == Value::Kind::Object
+                            ? std::make_shared<const Fluid>(read_fluid(*fluid))
+                            : find_fluid(fluid->as_string(), fluid->where(), folder);
+  const Value* steel = reader.optional("steel");
+  if (steel) {
+    description.steel = steel->kind() == Value::Kind::Object
+                            ? std::make_shared<const Steel>(read_steel(*steel))
+                            : find_steel(steel->as_string(), steel->where(), folder);
+    for (const std::string_view twice : {"permeability", "saturation"})
+      if (const Value* stated = reader.optional(twice))
+        throw Error(stated->where(), std::string(twice) + " stands beside steel", "one of the two");
+  }
   reader.string("note", "");
 
-  read_law(reader, "yield", kYieldLaws, description.yield_law);
+  if (const Value* yield = reader.optional("yield")) description.yield_law = yield->as_string();
   read_law(reader, "circuit", kCircuitLaws, description.circuit_law);
   read_law(reader, "flow", kFlowLaws, description.flow_law);
 
@@ -183,6 +225,10 @@ DamperDescription parse_description(std::string_view text, const std::string& so
     if (const Value* value = reader.optional(field.name))
       description.*field.field = read_field(*value, field);
 
+  if (description.steel && description.steel->points.empty()) {
+    description.permeability = description.steel->permeability;
+    description.saturation = description.steel->saturation;
+  }
   reader.finish();
   require_possible(description, source);
   return description;
@@ -199,16 +245,35 @@ DamperDescription named_description(const std::string& name) {
   return load_description(data_folder("dampers") / (name + ".yaml"));
 }
 
+DamperDescription find_description(const std::string& damper) {
+  const std::vector<std::string> known = description_names();
+  return std::find(known.begin(), known.end(), damper) != known.end() ? named_description(damper)
+                                                                      : load_description(damper);
+}
+
 std::vector<std::string> description_names() { return data_names("dampers", ".yaml"); }
 
 std::string format_description(const DamperDescription& d) {
-  std::string text = "name: " + yaml_string(d.name) + "\nfluid: " + std::string(d.fluid->name) +
-                     "\nyield: " + std::string(word_of(kYieldLaws, d.yield_law)) +
+  // A fluid and a steel of the user's own stand there whole, since their files may lie elsewhere.
+  const auto own = [](const auto& thing, const std::vector<std::string>& names, const auto& find) {
+    return std::find(names.begin(), names.end(), thing->name) == names.end() ||
+           find(thing->name, "", "") != thing;
+  };
+  const bool own_fluid = own(d.fluid, fluid_names(), find_fluid);
+  const std::string fluid = own_fluid ? format_json(to_json(*d.fluid), false) : d.fluid->name;
+  std::string text = "name: " + yaml_string(d.name) + "\nfluid: " + fluid +
+                     "\nyield: " + d.law().name +
                      "\ncircuit: " + std::string(word_of(kCircuitLaws, d.circuit_law)) +
                      "\nflow: " + std::string(word_of(kFlowLaws, d.flow_law)) + '\n';
+  if (d.steel)
+    text += "steel: " +
+            (own(d.steel, steel_names(), find_steel) ? format_json(to_json(*d.steel), false)
+                                                     : yaml_string(d.steel->name)) +
+            '\n';
   for (const DescriptionField& field : kFields)
-    text += std::string(field.name) + ": " + format_exact(d.*field.field) +
-            (field.unit == "1" ? "" : " " + std::string(field.unit)) + '\n';
+    if (!d.steel || (field.name != "permeability" && field.name != "saturation"))
+      text += std::string(field.name) + ": " + format_exact(d.*field.field) +
+              (field.unit == "1" ? "" : " " + std::string(field.unit)) + '\n';
   return text;
 }
 

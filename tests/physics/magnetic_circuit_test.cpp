@@ -1,4 +1,4 @@
-#include "dashpot/damper/physics/magnetic_circuit.h"
+#include "dashpot/physics/magnetic_circuit.h"
 
 #include "support.h"
 

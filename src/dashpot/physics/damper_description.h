@@ -1,21 +1,17 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/physics/fluid.h"
+#include "dashpot/physics/fluid.h"
+#include "dashpot/physics/steel.h"
 #include "dashpot/value.h"
 
 namespace dashpot {
 
-/// The law by which the yield stress follows the field.
-enum class YieldLaw {
-  Carlson,  ///< Carlson's empirical law, for any fluid
-  Paper,    ///< the family paper's polynomials, held where they turn over: 122EG and 140CG
-  DataSet  ///< the inputs of the family paper's data: for 122EG its four points, for 140CG as Paper
-};
 /// The law by which the flux density follows the coil's current.
 enum class CircuitLaw {
   Filled,  ///< fluid in the gap, steel that saturates: solved for the flux
@@ -30,11 +26,13 @@ enum class FlowLaw {
 
 /// A damper as its drawing, its coil and its fluid say, in SI. description_fields() gives each
 /// number's unit, default, bounds and meaning. A field of 0 whose meaning says so follows from
-/// others. `fluid` points into the table of fluids and is never null.
+/// others. `fluid` is never null; without a `steel` the steel is that of permeability and
+/// saturation.
 struct DamperDescription {
   std::string name;
-  const Fluid* fluid = nullptr;
-  YieldLaw yield_law = YieldLaw::Carlson;
+  std::shared_ptr<const Fluid> fluid;
+  std::string yield_law;  ///< of the fluid's laws; "": its first
+  std::shared_ptr<const Steel> steel;
   CircuitLaw circuit_law = CircuitLaw::Filled;
   FlowLaw flow_law = FlowLaw::Plate;
 
@@ -47,6 +45,8 @@ struct DamperDescription {
   double friction, stroke;
 
   DamperDescription();  ///< the defaults of the table
+  /// The law of the yield stress. The description must be possible.
+  const FluidLaw& law() const { return *fluid->law(yield_law); }
 };
 
 /// One row of the table from which reading, writing, documentation and design take their fields.
@@ -64,8 +64,10 @@ double read_field(const Value& value, const DescriptionField& field);
 /// Throws Error(where, "unknown field ...").
 const DescriptionField& find_description_field(std::string_view name, const std::string& where);
 
-/// From YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names
-/// file and line. What cannot be together (a rod wider than the bore) is refused too.
+/// From YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "steel: mine.yaml", "flow: plate". A fluid
+/// and a steel are names, files relative to that of the description (`source`), or stand there
+/// whole. Throws Error that names file and line. What cannot be together (a rod wider than the
+/// bore) is refused too.
 DamperDescription parse_description(std::string_view text, const std::string& source);
 DamperDescription load_description(const std::filesystem::path& path);
 /// A description that comes with Dashpot, of data/dampers. Throws Error "unknown damper ...".
@@ -76,5 +78,10 @@ std::string format_description(const DamperDescription& description);
 
 /// Throws Error where fields cannot be together; `where` begins the message.
 void require_possible(const DamperDescription& description, const std::string& where);
+/// Throws Error where the yield stress is a number, and so the same at any current: of no use where
+/// the current is to matter.
+void require_field(const DamperDescription& description, const std::string& where);
+/// The damper of data/dampers of this name, or of this file.
+DamperDescription find_description(const std::string& damper);
 
 }  // namespace dashpot

@@ -1,4 +1,4 @@
-#include "dashpot/damper/physics/plate_flow.h"
+#include "dashpot/physics/plate_flow.h"
 
 #include <functional>
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/physics/damper_description.h"
+#include "dashpot/physics/damper_description.h"
 
 namespace dashpot {
 
@@ -53,6 +53,15 @@ struct FluidState {
   double yield_stress = 0;                         ///< Pa
 };
 FluidState fluid_state(const DamperDescription& description, double current);
+
+/// What is known of a damper within a standard deviation only, as the files of its fluid and steel
+/// state it, and what that deviation does to the force.
+struct KnownWithin {
+  std::string what;
+  double share = 0, force = 0;  ///< N
+};
+std::vector<KnownWithin> force_uncertainty(const DamperDescription& description,
+                                           const DamperOperation& operation);
 
 /// Warnings that a user should read with the numbers, one sentence each: laws outside their range,
 /// a coil that does not fit, saturation. Empty when there are none.

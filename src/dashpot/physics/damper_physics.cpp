@@ -1,4 +1,4 @@
-#include "dashpot/damper/physics/damper_physics.h"
+#include "dashpot/physics/damper_physics.h"
 
 #include <array>
 #include <cmath>
@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "dashpot/base/text.h"
-#include "dashpot/damper/physics/coil.h"
-#include "dashpot/damper/physics/magnetic_circuit.h"
-#include "dashpot/damper/physics/plate_flow.h"
-#include "dashpot/damper/physics/spring.h"
 #include "dashpot/numerics/root.h"
+#include "dashpot/physics/coil.h"
+#include "dashpot/physics/magnetic_circuit.h"
+#include "dashpot/physics/plate_flow.h"
+#include "dashpot/physics/spring.h"
 
 namespace dashpot {
 namespace {
@@ -95,25 +95,19 @@ MagneticCircuit circuit_of(const DamperDescription& d, const DamperPhysics& shap
   return {d.turns, d.core_length, shape.magnetic_gap, d.core_area, d.permeability, d.saturation, 1};
 }
 
-double field_of(const DamperDescription& d, double flux_density) {
-  return d.yield_law == YieldLaw::Carlson ? carlson_field(d.fluid->volume_fraction, flux_density)
-                                          : family_field(d.fluid->family, flux_density);
+bool has_curve(const DamperDescription& d) { return d.steel && !d.steel->points.empty(); }
+
+/// A/m in the core at a flux density: by the steel's curve, else by permeability and saturation.
+double steel_field(const DamperDescription& d, double core) {
+  if (has_curve(d)) return d.steel->field(core);
+  return core * d.saturation / (d.saturation - core) / (d.permeability * DASHPOT_MU0);
 }
 
-double yield_stress_of(const DamperDescription& d, double field) {
-  if (d.yield_law == YieldLaw::Carlson)
-    return carlson_yield_stress(d.fluid->volume_fraction, d.carrier, field);
-  if (d.yield_law == YieldLaw::DataSet && d.fluid->family == &kFamily122EG)
-    return measured_yield_stress_122eg(field);
-  return family_yield_stress(d.fluid->family, field);
-}
-
-/// Ampere-turns that drive this flux density (T, in the core) through steel and fluid. The steel's
-/// field follows from its saturation: B = B_sat b / (b + B_sat) with b = mu H.
+/// Ampere-turns that drive this flux density (T, in the core) through steel and fluid. Without a
+/// curve the steel's field follows from its saturation: B = B_sat b / (b + B_sat) with b = mu H.
 double ampere_turns(const DamperDescription& d, const DamperPhysics& shape, double core) {
-  const double steel = core * d.saturation / (d.saturation - core) / (d.permeability * DASHPOT_MU0);
-  return steel * d.core_length +
-         field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
+  return steel_field(d, core) * d.core_length +
+         d.law().field(core * d.core_area / shape.pole_area) * shape.magnetic_gap;
 }
 
 /// The core's flux density, T, that a current drives: between none and what the steel alone would
@@ -122,7 +116,8 @@ double filled_core_flux_density(const DamperDescription& d, const DamperPhysics&
                                 double current) {
   const double wanted = d.turns * current,
                steel = d.permeability * DASHPOT_MU0 * wanted / d.core_length;
-  const double most = d.saturation * steel / (steel + d.saturation);
+  const double most = has_curve(d) ? d.steel->flux_density(wanted / d.core_length)
+                                   : d.saturation * steel / (steel + d.saturation);
   const auto off = [&](double core) { return ampere_turns(d, shape, core) - wanted; };
   return find_root(off, {0, -wanted}, {most, off(most)}, 1e-14 * wanted);
 }
@@ -139,8 +134,9 @@ FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, d
     state.core_flux_density = magnitude > 0 ? filled_core_flux_density(d, shape, magnitude) : 0;
     state.flux_density = state.core_flux_density * d.core_area / shape.pole_area;
   }
-  state.field = field_of(d, state.flux_density);
-  state.yield_stress = d.yield_stress > 0 ? d.yield_stress : yield_stress_of(d, state.field);
+  state.field = d.law().field(state.flux_density);
+  state.yield_stress =
+      d.yield_stress > 0 ? d.yield_stress : d.law().yield_stress(state.field, d.carrier);
   return state;
 }
 
@@ -156,7 +152,8 @@ void add_circuit(const DamperDescription& d, double current, const FluidState& a
 
   const double turns_current = d.turns * seen, flux = state.core_flux_density * d.core_area;
 
-  p.core_reluctance = core_reluctance(&circuit);
+  p.core_reluctance = has_curve(d) ? d.steel->field(state.core_flux_density) * d.core_length / flux
+                                   : core_reluctance(&circuit);
   p.gap_reluctance = d.circuit_law == CircuitLaw::Paper ? gap_reluctance(&circuit)
                                                         : state.field * p.magnetic_gap / flux;
 
@@ -177,11 +174,12 @@ void add_circuit(const DamperDescription& d, double current, const FluidState& a
 void add_fluid(const DamperDescription& d, const FluidState& state, DamperPhysics& p) {
   p.core_flux_density = state.core_flux_density;
   p.flux = state.core_flux_density * d.core_area;
-  p.core_saturation = state.core_flux_density / d.saturation;
+  p.core_saturation =
+      state.core_flux_density / (has_curve(d) ? d.steel->saturated() : d.saturation);
   p.flux_density = state.flux_density;
   p.field = state.field;
   p.yield_stress = state.yield_stress;
-  const double at_40 = d.viscosity > 0 ? d.viscosity : d.fluid->viscosity;
+  const double at_40 = d.viscosity > 0 ? d.viscosity : d.fluid->viscosity(d.temperature);
   p.viscosity = at_40 * std::exp(-d.viscosity_exponent * (d.temperature - 313.15));
 }
 
@@ -196,6 +194,13 @@ void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
   p.yield_pressure = plate_yield_pressure(&active, p.yield_stress);
   if (speed == 0) return;
   p.pressure = plate_bingham_pressure(p.newtonian_pressure, p.yield_pressure);
+  if (const double n = d.fluid->index; n != 1) {
+    // The viscosity is that at a shear rate, over which the power law goes.
+    const double consistency = p.viscosity * std::pow(d.fluid->shear_rate, 1 - n);
+    const double power = plate_power_law_pressure(&active, consistency, n, p.flow);
+    p.pressure = plate_herschel_bulkley_pressure(power, p.yield_pressure, n);
+    p.passive_pressure = plate_power_law_pressure(&passive, consistency, n, p.flow);
+  }
   p.plate_force = p.piston_area * (p.pressure + p.passive_pressure);
 
   // The wall moves against the flow, in the part with field and in the part without.
@@ -262,12 +267,65 @@ DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation
   return p;
 }
 
+std::vector<KnownWithin> force_uncertainty(const DamperDescription& d,
+                                           const DamperOperation& operation) {
+  const double force = evaluate_physics(d, operation).force;
+  std::vector<KnownWithin> parts;
+  const auto add = [&](std::string what, double share, const DamperDescription& other) {
+    parts.push_back(
+        {std::move(what), share, std::abs(evaluate_physics(other, operation).force - force)});
+  };
+
+  // Each is moved by its standard deviation, the others as they are.
+  if (const double share = d.fluid->yield_uncertainty; share > 0) {
+    Fluid fluid = *d.fluid;
+    for (FluidLaw& law : fluid.laws) law.scale *= 1 + share;
+    DamperDescription other = d;
+    other.fluid = std::make_shared<const Fluid>(std::move(fluid));
+    add("yield stress of " + d.fluid->name, share, other);
+  }
+  if (const double share = d.fluid->viscosity_uncertainty; share > 0 && !(d.viscosity > 0)) {
+    Fluid fluid = *d.fluid;
+    for (auto& [temperature, viscosity] : fluid.viscosities) viscosity *= 1 + share;
+    DamperDescription other = d;
+    other.fluid = std::make_shared<const Fluid>(std::move(fluid));
+    add("viscosity of " + d.fluid->name, share, other);
+  }
+  if (d.steel && d.steel->uncertainty > 0) {
+    const double share = d.steel->uncertainty;
+    Steel steel = *d.steel;
+    steel.scale *= 1 + share;
+    DamperDescription other = d;
+    other.saturation *= 1 + share;
+    other.permeability *= 1 + share;
+    other.steel = std::make_shared<const Steel>(std::move(steel));
+    add("flux density of " + d.steel->name, share, other);
+  }
+  return parts;
+}
+
 std::vector<std::string> physics_warnings(const DamperDescription& d, const DamperPhysics& p) {
-  std::vector<std::string> warnings;
-  if (d.yield_law == YieldLaw::Paper) warnings = family_warnings(*d.fluid, p.field);
-  if (!d.fluid->volume_fraction_verified && d.yield_law == YieldLaw::Carlson)
-    warnings.push_back("the volume fraction of " + std::string(d.fluid->name) +
+  // What the fluid's file says of its law, and where it ends.
+  const FluidLaw& law = d.law();
+  std::vector<std::string> warnings = law.faults;
+  const auto kilo = [](double value, const std::string& unit) {
+    return format_number(value / 1000) + " k" + unit;
+  };
+  const double end = law.has_yield_polynomial      ? law.polynomial.held_field
+                     : !law.yield_stresses.empty() ? law.yield_stresses.back().first
+                                                   : std::numeric_limits<double>::infinity();
+  if (p.field > end)
+    warnings.push_back("the yield stress of " + d.fluid->name + " is held at " +
+                       kilo(law.yield_stress(end, d.carrier), "Pa") + " above " + kilo(end, "A/m") +
+                       ", where its " +
+                       (law.has_yield_polynomial ? "polynomial is used no further" : "points end"));
+  if (!law.verified)
+    warnings.push_back("the volume fraction of " + d.fluid->name +
                        " is recalled, not from its data sheet");
+  if (d.fluid->index != 1)
+    warnings.push_back(d.fluid->name +
+                       " is a Herschel-Bulkley fluid: the moving wall and the paper's equations "
+                       "take it as Bingham's, of the viscosity at its shear rate");
 
   // The coil and its circuit.
   if (p.coil_fill > 0.6)
@@ -286,7 +344,8 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
     warnings.push_back(
         "the gap is " + format_number(100 * d.gap / diameter, 3) +
         " % of its diameter: plates stand for an annulus to the order of its square only");
-  if (d.viscosity_exponent == 0 && std::abs(d.temperature - 313.15) > 1)
+  if (d.viscosity_exponent == 0 && d.fluid->viscosities.size() == 1 &&
+      std::abs(d.temperature - 313.15) > 1)
     warnings.push_back(
         "the viscosity is that at 40 degC: state viscosity_exponent to have it follow the "
         "temperature");

@@ -1,0 +1,86 @@
+#include "dashpot/physics/steel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/read_quantity.h"
+#include "dashpot/physics/fluid_curves.h"
+#include "dashpot/physics/named_file.h"
+#include "dashpot/physics/read_points.h"
+
+namespace dashpot {
+
+double Steel::field(double flux_density) const {
+  const double b = flux_density / scale;
+  const auto& last = points.back();
+  if (b >= last.second) return last.first + (b - last.second) / DASHPOT_MU0;
+  for (std::size_t k = 1;; ++k) {
+    const auto &lower = points[k - 1], &upper = points[k];
+    if (b < upper.second)
+      return lower.first +
+             (upper.first - lower.first) * (b - lower.second) / (upper.second - lower.second);
+  }
+}
+
+double Steel::flux_density(double field) const {
+  const auto& last = points.back();
+  if (field >= last.first) return scale * (last.second + DASHPOT_MU0 * (field - last.first));
+  return scale * curve_at(points, field);
+}
+
+double Steel::saturated() const {
+  double most = 0;
+  for (const auto& [field, flux] : points) most = std::max(most, flux - DASHPOT_MU0 * field);
+  return scale * most;
+}
+
+std::vector<std::string> steel_names() { return data_names("steels", ".yaml"); }
+
+std::shared_ptr<const Steel> find_steel(std::string_view name, const std::string& where,
+                                        const std::filesystem::path& folder) {
+  return find_named<Steel>({"steel", "steels", read_steel}, name, where, folder);
+}
+
+Steel read_steel(const Value& value) {
+  ObjectReader reader(value, "a steel");
+  Steel steel;
+  steel.name = reader.string("name");
+  steel.source = reader.string("source", "");
+  steel.note = reader.string("note", "");
+
+  // Points, or the two numbers of the soft knee.
+  if (const Value* points = reader.optional("points")) {
+    steel.points = read_points(*points, "A/m", "T");
+    require_rising(steel.points, *points, "the flux density", true);
+    if (steel.points.front().second != 0)
+      throw Error(points->where(), "there is a flux density without field", "a first point [0, 0]");
+    if (const Value* scale = reader.optional("scale")) steel.scale = read_quantity(*scale, "1");
+  } else {
+    steel.permeability = read_quantity(reader.required("permeability"), "1");
+    steel.saturation = read_quantity(reader.required("saturation"), "T");
+    if (!(steel.permeability >= 1 && steel.saturation > 0))
+      throw Error(value.where(), "is no steel", "permeability of 1 and more, saturation above 0 T");
+  }
+  if (const Value* uncertainty = reader.optional("uncertainty"))
+    steel.uncertainty = read_quantity(*uncertainty, "1");
+  if (!(steel.uncertainty >= 0 && steel.uncertainty <= 1 && steel.scale > 0))
+    throw Error(value.where(), "its uncertainty or scale is no share", "as 'uncertainty: 5 %'");
+  reader.finish();
+  return steel;
+}
+
+Value to_json(const Steel& steel) {
+  Value out = Value::object({{"name", steel.name}, {"source", steel.source}});
+  if (!steel.note.empty()) out.add("note", steel.note);
+  if (steel.points.empty()) {
+    out.add("permeability", steel.permeability);
+    out.add("saturation", steel.saturation);
+  } else {
+    out.add("points", points_json(steel.points));
+    if (steel.scale != 1) out.add("scale", steel.scale);
+  }
+  if (steel.uncertainty > 0) out.add("uncertainty", steel.uncertainty);
+  return out;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,117 @@
+#include <algorithm>
+
+#include "dashpot/dataset.h"
+#include "dashpot/physics/damper_physics.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr const char* kRun =
+    "t_s,x_mm,F_N\n0,0,1\n0.01,1,2\n0.02,2,3\n0.03,1,-1\n0.04,0,-2\n0.05,-1,-1\n";
+
+double condition(const Record& record, std::string_view name) {
+  for (const auto& [key, value] : record.conditions)
+    if (key == name) return value;
+  return -1;
+}
+
+std::string refused(const TemporaryFolder& folder) {
+  return message_of([&] { load_dataset({folder.path()}); });
+}
+
+/// Two runs at two currents, and what is stated about them.
+void write_campaign(const TemporaryFolder& folder, const std::string& manifest,
+                    const std::string& statement = {}) {
+  folder.write("a_0A.csv", kRun);
+  folder.write("b_1A.csv", kRun);
+  folder.write("small.yaml", "name: small\nfluid: 132DG\ngap: 0.8 mm\n");
+  folder.write("wide.yaml", "name: wide\nfluid: 132DG\ngap: 1.2 mm\npole_length: 25 mm\n");
+  if (!manifest.empty()) folder.write("manifest.csv", manifest);
+  if (!statement.empty()) folder.write("dataset.yaml", statement);
+}
+
+}  // namespace
+
+TEST_CASE("drawings in a manifest give geometry, fluid, and the yield stress at each current") {
+  const TemporaryFolder folder;
+  write_campaign(folder, "file,damper\na_0A.csv,small.yaml\nb_1A.csv,wide.yaml\n");
+  const Dataset data = load_dataset({folder.path()});
+  REQUIRE(data.records.size() == 2);
+  const Record& wide = *std::ranges::find(data.records, "b_1A", &Record::name);
+  const DamperDescription drawn = load_description(folder.path() / "wide.yaml");
+  const DamperPhysics physics = evaluate_physics(drawn, {.current = 1});
+  CHECK(condition(wide, "gap") == 1.2e-3);
+  CHECK(condition(wide, "pole_length") == 25e-3);
+  CHECK(condition(wide, "piston_area") == physics.piston_area);
+  CHECK(condition(wide, "viscosity") == physics.viscosity);
+  CHECK(condition(wide, "yield_stress") == physics.yield_stress);
+  const Record& small = *std::ranges::find(data.records, "a_0A", &Record::name);
+  CHECK(condition(small, "yield_stress") == 0);
+  CHECK(condition(small, "gap") == 0.8e-3);
+}
+
+TEST_CASE("a dataset file names the drawing, by pattern or by a column, and goes before it") {
+  const TemporaryFolder folder;
+  write_campaign(folder, "",
+                 "files:\n  - {match: 'a*', damper: small.yaml, conditions: {gap: 0.9 mm}}\n"
+                 "  - {match: 'b*', damper: passenger_car}\n");
+  const Dataset data = load_dataset({folder.path()});
+  CHECK_CLOSE(condition(data.records[0], "gap"), 0.9e-3, 1e-12, 0);
+  CHECK(condition(data.records[1], "pole_length") == 24e-3);
+
+  write_campaign(folder, "file,drawn\na_0A.csv,small.yaml\nb_1A.csv,wide.yaml\n",
+                 "files: [{match: '*.csv', damper: {manifest: drawn}}]\n");
+  CHECK(condition(load_dataset({folder.path()}).records[1], "gap") == 1.2e-3);
+}
+
+TEST_CASE("columns of a manifest are conditions, by their names with a unit or as stated") {
+  const TemporaryFolder folder;
+  write_campaign(folder,
+                 "file,gap [mm],pole_length_mm,viscosity,room\na_0A.csv,1.1,20,0.1,25\n"
+                 "b_1A.csv,1.3,20,0.2,26\n");
+  Dataset data = load_dataset({folder.path()});
+  CHECK_CLOSE(condition(data.records[0], "gap"), 1.1e-3, 1e-12, 0);
+  CHECK_CLOSE(condition(data.records[1], "pole_length"), 20e-3, 1e-12, 0);
+  CHECK(condition(data.records[0], "viscosity") == -1);
+  CHECK(std::ranges::any_of(data.notes, [](const std::string& note) {
+    return note.find("'viscosity' has no unit") != std::string::npos;
+  }));
+
+  write_campaign(folder, "",
+                 "files:\n  - match: '*.csv'\n    conditions:\n      gap: {manifest: 'gap [mm]'}\n"
+                 "      viscosity: {manifest: viscosity, unit: Pa*s}\n"
+                 "      temperature: {manifest: room, unit: degC}\n");
+  data = load_dataset({folder.path()});
+  CHECK_CLOSE(condition(data.records[0], "gap"), 1.1e-3, 1e-12, 0);
+  CHECK(condition(data.records[1], "viscosity") == 0.2);
+  CHECK_CLOSE(condition(data.records[1], "temperature"), 299.15, 1e-12, 0);
+}
+
+TEST_CASE("drawings and columns that cannot be used end the work, with what would be right") {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& manifest, const std::string& statement,
+                        const char* words) {
+    write_campaign(folder, manifest, statement);
+    const std::string message = refused(folder);
+    CAPTURE(message);
+    CHECK(message.find(words) != std::string::npos);
+  };
+  const std::string listed = "file,gap,drawn\na_0A.csv,1,small.yaml\nb_1A.csv,wide,none.yaml\n";
+  const auto entry = [](const std::string& text) {
+    return "files:\n  - match: '*.csv'\n    " + text + "\n";
+  };
+  says(listed, entry("conditions: {gap: {manifest: gap}}"),
+       "has no unit; {manifest: gap, unit: mm}");
+  says(listed, entry("conditions: {gap: {manifest: gap, unit: kg}}"), "does not fit gap");
+  says(listed, entry("conditions: {gap: {manifest: gap, unit: mm}}"), "is 'wide', not a number");
+  says(listed, entry("conditions: {gap: {manifest: gape, unit: mm}}"), "has no 'gape'");
+  says(listed, entry("damper: {manifest: drawn}"), "none.yaml");
+  says(listed, entry("damper: {manifest: drawings}"), "has no 'drawings'");
+  says(listed, entry("damper: smal"), "is no drawing");
+  folder.write("wrong.yaml", "gap: 30 mm\n");
+  says(listed, entry("damper: wrong.yaml"), "dataset.yaml:3");
+  folder.write("wrong.yaml", "yield_stress: 20 kPa\n");
+  says(listed, entry("damper: wrong.yaml"), "that no current changes");
+}
