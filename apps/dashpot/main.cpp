@@ -16,6 +16,7 @@
 #include "console.h"
 #include "dashpot/base/ranks.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/nets/kernel.h"
 #include "help.h"
 
 namespace dashpot::cli {
@@ -142,6 +143,12 @@ int run_command(std::vector<std::string> words, Console& console) {
   return command.run(console);
 }
 
+/// DASHPOT_SIMD stands for --simd in every command, also in those that have no such option.
+void settle_instructions() {
+  const char* level = std::getenv("DASHPOT_SIMD");
+  if (level && *level) use_simd(level, "the environment's DASHPOT_SIMD");
+}
+
 int run_words(const std::vector<std::string>& words, Console& console) {
   if (words.empty() || words.front() == "--help" || words.front() == "-h") {
     console.print(overview(all_commands(), console));
@@ -180,6 +187,7 @@ void explain(std::string_view message, Console& console) {
 
 int run_and_explain(const std::vector<std::string>& words, Console& console) {
   try {
+    settle_instructions();
     const int code = run_words(words, console);
     console.finish();
     leave_ranks();

@@ -27,7 +27,7 @@ std::vector<Option> many_machines_options(ManyMachines& settings) {
 
 Part settle_machines(const ManyMachines& settings) {
   try {
-    if (!settings.simd.empty()) use_simd(settings.simd);
+    if (!settings.simd.empty()) use_simd(settings.simd, "--simd");
     return settings.part.empty() ? Part() : parse_part(settings.part, "--part");
   } catch (const Error& error) {
     throw UsageError({}, error.what());

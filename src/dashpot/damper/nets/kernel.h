@@ -24,8 +24,9 @@ const std::vector<SimdLevel>& simd_levels();
 /// "sse2" (on other processors: whatever the compiler takes as the least), "avx2", "avx512".
 std::string_view name_of(SimdLevel level);
 /// From now on simd_levels() ends at this level, so that unlike processors give the same bits. To
-/// be called before any work begins. Throws Error where this processor does not run it.
-void use_simd(std::string_view name);
+/// be called before any work begins. Throws Error, which names who asked, where this processor does
+/// not run it.
+void use_simd(std::string_view name, const std::string& asked_by);
 
 constexpr std::size_t kMaxWidth = 128;  ///< of a layer
 

@@ -46,7 +46,7 @@ std::string_view name_of(SimdLevel level) {
   return level == SimdLevel::Avx512 ? "avx512" : level == SimdLevel::Avx2 ? "avx2" : "sse2";
 }
 
-void use_simd(std::string_view name) {
+void use_simd(std::string_view name, const std::string& asked_by) {
   std::vector<SimdLevel>& levels = levels_in_use();
   std::vector<std::string> known;
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -55,7 +55,7 @@ void use_simd(std::string_view name) {
     levels.resize(k + 1);
     return;
   }
-  throw Error("--simd", "this processor does not run " + std::string(name),
+  throw Error(asked_by, "this processor does not run " + std::string(name),
               "it runs " + join(known, ", "));
 }
 
