@@ -228,6 +228,9 @@ void WorkRoutes::add_export(httplib::Server& server) {
                                     {"files", exporter.files}}));
     answer(response, Value::object({{"formats", std::move(list)}}));
   });
+  server.Get("/api/exports", [this](const Request&, Response& response) {
+    answer(response, Value::object({{"exports", exports(project_)}}));
+  });
   server.Post("/api/export", [this](const Request& request, Response& response) {
     answer(response, export_model(project_, body_of(request)));
   });
