@@ -4,7 +4,7 @@
 // usage: node story.mjs DASHPOT [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
+import {cpSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 import {make_folder, remove_folder, start} from "./studio.mjs";
 
@@ -119,8 +119,7 @@ async function correction(page) {
 // The command that the page shows makes the same file, to the bit.
 function same_dataset_file() {
   const theirs = join(scratch, "theirs");
-  mkdirSync(join(theirs, "recordings"), {recursive: true});
-  for (const name of readdirSync(join(folder, "recordings"))) writeFileSync(join(theirs, "recordings", name), readFileSync(join(folder, "recordings", name)));
+  cpSync(join(folder, "recordings"), join(theirs, "recordings"), {recursive: true});
   try {
     execFileSync(program, ["inspect", theirs, "--quiet", "--correct", `recordings/${lying}`, "--set", "force.unit=N"], {stdio: "pipe"});
   } catch (error) { assert.equal(error.status, 4, String(error.stderr)); }
@@ -143,6 +142,10 @@ async function fitting(page) {
   assert.match(await page.locator(".moving").first().textContent(), /^\w+.*: .* = /, "parameters are shown as they move");
   await shoot(page, "4-fitting");
   await page.locator("section table").waitFor({timeout: 120000});
+  const first = await page.locator("section tbody tr").count();
+  assert.ok(first < kFour.length, `a model stands in the leaderboard when it ends, not with the last: ${first}`);
+  await page.getByRole("link", {name: "Report"}).waitFor({timeout: 120000});
+  await page.locator("section progress").waitFor({state: "detached"});
   assert.equal(await page.locator("section tbody tr").count(), kFour.length);
   await shoot(page, "5-leaderboard");
   assert.ok(existsSync(join(folder, "fits", "four models", "report.html")));
@@ -203,8 +206,12 @@ async function driving(page) {
   const step = await driven(() => page.locator(".side > .field", {hasText: /^Road/}).locator("select").selectOption("step"));
   assert.ok(step.run.measures.some((measure) => measure.name === "settling"));
   await page.getByRole("cell", {name: "settling", exact: true}).waitFor();
+  const before = problems.length;
   await damper(1).locator("input:not([type])").first().fill("fast");
   assert.match(await page.locator("[role=alert]").first().textContent(), /B: .*fast/s);
+  await damper(1).locator("input:not([type])").first().fill("1.5");
+  await page.locator("[role=alert]").waitFor({state: "detached"});
+  for (const refused of problems.splice(before)) assert.match(refused, /status of 400/);
 
   // All controllers ride in the background, and can be stopped.
   await page.getByRole("button", {name: "Ride them with damper A"}).click();
