@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DesignSettings {
-  std::string request, folder = "dashpot-design", method = "nsga2", outside_family = "mark";
+  std::string request, start_from, folder = "dashpot-design", method = "nsga2",
+                                   outside_family = "mark";
   DesignOptions options;
   std::uint64_t points = DesignOptions().points;
   bool quantities = false, report = true, insist = false;
@@ -51,6 +52,20 @@ DesignRequest requested(const DesignSettings& settings) {
     throw UsageError("REQUEST", "is missing: a file, or one of " + join(request_names(), ", "));
   return is_path(settings.request) ? load_request(settings.request)
                                    : named_request(settings.request);
+}
+
+/// The designs that an earlier run left in its folder, in their order.
+std::vector<DamperDescription> earlier_designs(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / "designs", none))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  if (files.empty())
+    throw Error(folder, "holds no designs to go on from", "the --output of an earlier run");
+  std::ranges::sort(files);
+  std::vector<DamperDescription> designs;
+  for (const fs::path& file : files) designs.push_back(load_description(file));
+  return designs;
 }
 
 std::string quantities_text(int width) {
@@ -174,6 +189,11 @@ int run_design(DesignSettings settings, Console& console) {
   settings.options.method = settings.method == "moead" ? FrontMethod::Moead : FrontMethod::Nsga2;
   settings.options.refuse_outside = settings.outside_family == "refuse";
   settings.options.insist = settings.insist;
+  if (!settings.start_from.empty()) {
+    if (request.goals.size() < 2)
+      throw UsageError("--start-from", "a single goal is searched anew", "leave it out");
+    settings.options.starts = earlier_designs(settings.start_from);
+  }
   settings.options.monitor = console.monitor();
 
   // A folder that cannot be written is found out before the search, not after it.
@@ -224,6 +244,13 @@ std::vector<Option> options_of(DesignSettings& settings) {
        .help = "generations of the search for the front",
        .value = "N",
        .minimum = 1},
+      {.names = "--start-from",
+       .target = &settings.start_from,
+       .help = "go on from the designs of an earlier run, the folder of its results, in place of "
+               "the best for each goal",
+       .value = "DIR",
+       .takes = Takes::Folder,
+       .default_text = "none"},
       {.names = "--method",
        .target = &settings.method,
        .help = "method of the search for the front",

@@ -1,5 +1,10 @@
 #include "identify_options.h"
 
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
@@ -20,6 +25,30 @@ std::string network_help() {
     parts.push_back(std::string(setting.name) + " (" + std::string(setting.meaning) + "; as " +
                     std::string(setting.value) + ')');
   return "how networks are built and trained, as hidden=15-15,trainer=adam: " + join(parts, ", ");
+}
+
+/// Lines for a program that draws the progress, not more often than an eye follows.
+auto parameter_lines(Console& console) {
+  using Clock = std::chrono::steady_clock;
+  struct Said {
+    std::mutex guard;
+    Clock::time_point last;
+  };
+  return
+      [&console, said = std::make_shared<Said>()](
+          const std::string& stage, const std::vector<std::pair<std::string, double>>& parameters) {
+        constexpr auto kPause = std::chrono::milliseconds(50);
+        const std::lock_guard lock(said->guard);
+        if (Clock::now() - said->last < kPause) return;
+        said->last = Clock::now();
+
+        // A value that is not finite, on the way, has no place in JSON.
+        Value values = Value::array();
+        for (const auto& [name, value] : parameters)
+          if (std::isfinite(value)) values.push_back(Value::array({Value(name), Value(value)}));
+        const Value line = Value::object({{"stage", stage}, {"parameters", std::move(values)}});
+        console.talk(format_json(line, false) + "\n");
+      };
 }
 
 }  // namespace
@@ -140,6 +169,7 @@ IdentifyOptions identify_options(const FitSettings& settings,
   try {
     IdentifyOptions options = dashpot::identify_options(settings, models, "--");
     options.monitor = console.monitor();
+    if (console.progress == "json") options.on_parameters = parameter_lines(console);
     return options;
   } catch (const Error& error) {
     throw UsageError({}, error.what());

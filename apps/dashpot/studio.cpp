@@ -54,8 +54,9 @@ Command studio_command() {
           .description =
               "Serves a page to this machine alone and prints its address, which one browser can "
               "use once. FOLDER holds the recordings; what is corrected becomes its dataset.yaml, "
-              "fits go to FOLDER/fits/NAME: both are those of the command line, and the page says "
-              "the command for everything that it does. Docs: docs/studio.md.",
+              "fits, rides, designs and exports go to folders of their own in it: all are those of "
+              "the command line, and the page says the command for everything that it does. Docs: "
+              "docs/studio.md.",
           .options = {{.names = "FOLDER",
                        .target = &settings->options.folder,
                        .help = "the project: a folder with recordings, or an empty one",

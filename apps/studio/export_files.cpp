@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -22,6 +23,7 @@ namespace {
 /// What an export may take; an FMU has a compiler inside.
 constexpr ChildLimits kExporting{
     .memory = std::size_t{4} << 30, .cpu_seconds = 300, .file = std::size_t{256} << 20};
+constexpr const char* kNoteFile = "studio.json";  // what was exported, by which command
 constexpr std::size_t kMostBytes = std::size_t{256} << 20, kMostFiles = 1000;
 
 std::mutex exports_mutex;  // one export is written or read at a time
@@ -57,16 +59,33 @@ std::string checked_time(const std::string& text) {
   return text;
 }
 
-/// The regular files below a folder, as names from it, in order.
+/// The files of an export below its folder, as names from it, in order.
 std::vector<std::string> files_below(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error))
-    if (at->is_regular_file() && !at->is_symlink() && names.size() < kMostFiles)
+    if (at->is_regular_file() && !at->is_symlink() && names.size() < kMostFiles &&
+        at->path() != folder / kNoteFile)
       names.push_back(at->path().lexically_relative(folder).string());
   std::ranges::sort(names);
   return names;
+}
+
+/// What is said of an export: its note, and its files with their sizes.
+Value described(const fs::path& folder) {
+  const fs::path note = folder / kNoteFile;
+  const Value said = parse_json(read_file(note), note.string());
+  ObjectReader reader(said, "an export");
+  Value files = Value::array();
+  for (const std::string& name : files_below(folder)) {
+    const auto bytes = static_cast<std::size_t>(fs::file_size(folder / name));
+    files.push_back(Value::object({{"name", name}, {"bytes", bytes}}));
+  }
+  return Value::object({{"folder", folder.filename().string()},
+                        {"model", reader.string("model")},
+                        {"files", std::move(files)},
+                        {"arguments", reader.required("arguments")}});
 }
 
 }  // namespace
@@ -102,13 +121,27 @@ Value export_model(const Project& project, const Value& asked) {
   const ChildEnd end = run_self(words, project.folder(), kExporting);
   if (end.exit_code != 0) throw Error("", project.without_folder(error_of(end)));
   add_report(file, folder);
-  Value files = Value::array();
-  for (const std::string& name : files_below(folder)) {
-    const auto bytes = static_cast<std::size_t>(fs::file_size(folder / name));
-    files.push_back(Value::object({{"name", name}, {"bytes", bytes}}));
-  }
-  return Value::object(
-      {{"folder", folder_name}, {"files", std::move(files)}, {"arguments", Value::array(words)}});
+  write_file(folder / kNoteFile,
+             format_json(Value::object({{"model", model}, {"arguments", Value::array(words)}})));
+  return described(folder);
+}
+
+Value exports(const Project& project) {
+  using Entry = std::pair<fs::file_time_type, fs::path>;
+  const std::lock_guard lock(exports_mutex);
+  std::vector<Entry> all;
+  std::error_code error;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(project.folder() / "exports", error))
+    if (fs::exists(entry.path() / kNoteFile) && !entry.is_symlink())
+      all.emplace_back(fs::last_write_time(entry.path() / kNoteFile), entry.path());
+  std::ranges::sort(all, std::greater());
+  Value list = Value::array();
+  for (const auto& [time, folder] : all) try {
+      list.push_back(described(folder));
+    } catch (const Error&) {  // a note that nobody can read is no export of a studio
+    }
+  return list;
 }
 
 Download exported(const Project& project, const std::string& folder, const std::string& file) {

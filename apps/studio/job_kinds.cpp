@@ -6,11 +6,11 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/physics/damper_description.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/dataset.h"
 #include "dashpot/design/design_request.h"
 #include "dashpot/error.h"
+#include "dashpot/physics/damper_description.h"
 #include "vehicle_words.h"
 
 namespace fs = std::filesystem;
@@ -98,12 +98,25 @@ std::vector<std::string> design_command(const Project&, const fs::path& folder,
                     generations =
                         count_word(reader.number("generations", 100), 1, 2000, "generations"),
                     seed = count_word(reader.number("seed", 1), 0, 1e9, "seed");
+  const bool goes_on = reader.boolean("goes_on", false);
   reader.finish();
   checked_request(asked);
-  return {"design",        (folder / kRequestFile).string(),
-          "--points",      points,
-          "--generations", generations,
-          "--seed",        seed};
+  std::vector<std::string> words{"design", (folder / kRequestFile).string()};
+  words.insert(words.end(), {"--points", points, "--generations", generations, "--seed", seed});
+  if (goes_on) words.insert(words.end(), {"--start-from", folder.string()});
+  return words;
+}
+
+/// A front goes on from the designs that it has.
+Value continued_design(const fs::path& folder, const Value& asked) {
+  const std::string text = checked_request(asked);
+  const bool has_front = parse_request(text, kRequestFile).goals.size() > 1 &&
+                         fs::exists(folder / "designs" / "design_001.yaml");
+  Value next = Value::object();
+  for (const auto& [key, member] : asked.members())
+    if (key != "goes_on") next.add(key, member);
+  if (has_front) next.add("goes_on", true);
+  return next;
 }
 
 void write_request(const fs::path& folder, const Value& asked) {
@@ -111,9 +124,9 @@ void write_request(const fs::path& folder, const Value& asked) {
 }
 
 constexpr std::array kJobKinds{
-    JobKind{"fit", "fits", "report.html", fit_command, nullptr},
-    JobKind{"ride", "rides", "report.html", ride_command, nullptr},
-    JobKind{"design", "designs", "design.html", design_command, write_request}};
+    JobKind{"fit", "fits", "report.html", fit_command, nullptr, nullptr},
+    JobKind{"ride", "rides", "report.html", ride_command, nullptr, nullptr},
+    JobKind{"design", "designs", "design.html", design_command, continued_design, write_request}};
 
 }  // namespace
 

@@ -19,14 +19,16 @@ struct JobKind {
   /// work, or names what the project does not have. `folder`: of the piece, not made yet.
   std::vector<std::string> (*words)(const Project& project, const std::filesystem::path& folder,
                                     const Value& asked);
+  /// What is asked for where it goes on in its folder; null: the same as before.
+  Value (*continued)(const std::filesystem::path& folder, const Value& asked);
   /// Writes what the command reads from the folder; null: nothing.
   void (*prepare)(const std::filesystem::path& folder, const Value& asked);
 };
 
 /// "fit": {"models": ["bingham", ...], "leave_out": ""}, as `dashpot rank` takes them.
 /// "ride": a drive (vehicle_words.h) with {"controllers": ["skyhook", ...], "bound": false}.
-/// "design": {"request": YAML, "points", "generations", "seed"}.
-/// Throws Error on any other name.
+/// "design": {"request": YAML, "points", "generations", "seed", "goes_on": false}, the last of
+/// these from the designs in its folder. Throws Error on any other name.
 const JobKind& job_kind(std::string_view name);
 std::span<const JobKind> job_kinds();
 

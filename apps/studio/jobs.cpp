@@ -137,6 +137,7 @@ void Jobs::go_on(const JobKind& kind, const std::string& name) {
   if (!job || job->asked.is_null())
     throw Error("'" + name + "'", "is no " + std::string(kind.name) + " of the studio");
   if (job->state == "running") throw Error("'" + name + "'", "is running");
+  if (kind.continued) job->asked = kind.continued(folder_of(*job), job->asked);
   begin(*job);
 }
 
@@ -154,6 +155,7 @@ void Jobs::begin(Job& job) {
   job.stage = job.kind->name == "fit" ? "reading the recordings" : "";
   job.message.clear();
   job.steps.clear();
+  job.parameters = {};
   job.judged.clear();
   job.fraction = 0;
   job.stop_asked = false;
@@ -187,6 +189,8 @@ void Jobs::take_line(Job& job, std::string_view line, double seconds) {
   if (const Value* fraction = value.find("fraction")) job.fraction = fraction->as_number();
   if (const Value* cost = value.find("cost"); cost && job.steps.size() < kMostSteps)
     job.steps.push_back({job.stage, seconds, cost->as_number()});
+  if (const Value* parameters = value.find("parameters"))
+    job.parameters = Value::object({{"of", job.stage}, {"values", *parameters}});
   if (const Value* row = value.find("judged")) job.judged.push_back(*row);
   ++version_;
   condition_.notify_all();
@@ -251,6 +255,7 @@ Value Jobs::list(const JobKind& kind) const {
                                   {"fraction", job.fraction},
                                   {"message", job.message},
                                   {"steps", std::move(steps)},
+                                  {"parameters", job.parameters},
                                   {"judged", Value::array(job.judged)},
                                   {"arguments", Value::array(job.words)},
                                   {"has_report", fs::exists(folder / kind.result)},

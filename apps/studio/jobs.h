@@ -52,6 +52,7 @@ class Jobs {
       double seconds, cost;
     };
     std::vector<Step> steps;    ///< how the errors of its fits fell
+    Value parameters;           ///< of the law that reported last, as they are then
     std::vector<Value> judged;  ///< rows of the leaderboard to come, as its models end
     std::atomic<int> pid = 0;
     std::jthread thread;

@@ -245,7 +245,7 @@ fs::path Project::module(const std::string& model) {
   const ChildEnd end = run_self({"export", file.string(), "--to", "js", "--name", "model",
                                  "--quiet", "--output", place.parent_path().string()},
                                 folder_, kReading);
-  if (!fs::exists(place)) throw Error("", without_folder(error_of(end), folder_));
+  if (!fs::exists(place)) throw Error("", without_folder(error_of(end)));
   return place;
 }
 

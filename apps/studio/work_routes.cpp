@@ -10,10 +10,10 @@
 #include "dashpot/base/file.h"
 #include "dashpot/controller.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/damper/physics/damper_description.h"
 #include "dashpot/design/design_request.h"
 #include "dashpot/error.h"
 #include "dashpot/export.h"
+#include "dashpot/physics/damper_description.h"
 #include "dashpot/plant.h"
 #include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/dampers/passive_curve.h"
@@ -227,6 +227,9 @@ void WorkRoutes::add_export(httplib::Server& server) {
                                     {"takes", exporter.takes},
                                     {"files", exporter.files}}));
     answer(response, Value::object({{"formats", std::move(list)}}));
+  });
+  server.Get("/api/exports", [this](const Request&, Response& response) {
+    answer(response, Value::object({{"exports", exports(project_)}}));
   });
   server.Post("/api/export", [this](const Request& request, Response& response) {
     answer(response, export_model(project_, body_of(request)));

@@ -32,6 +32,11 @@ struct IdentifyOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
   Monitor monitor;
+  /// May be empty. The parameters of a law as they are at this step of its fit: the monitor's
+  /// stage, names and values in SI. Called from several threads.
+  std::function<void(const std::string& stage,
+                     const std::vector<std::pair<std::string, double>>& parameters)>
+      on_parameters = {};
 };
 
 /// A fitted parameter with its 95 % interval. Networks and fuzzy models have none.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "dashpot/base/file.h"
@@ -154,4 +155,31 @@ TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit")
   refused("--plant savaresi", 1, "did you mean 'savaresi_spelta'?");
   refused("--plant savaresi_spelta --controller skyhok", 1, "skyhook");
   refused("--plant savaresi_spelta --road iso8608,class=Z", 1, "class");
+}
+
+TEST_CASE("rank: its progress as JSON has each model when it ends, and parameters as they move") {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_dashpot("--progress json " + rank_of("bingham,tanh_kwok", folder.path()) + " --fresh");
+  REQUIRE(result.exit_code == 0);
+  const std::string leaderboard = read_file(folder.path() / "leaderboard.csv");
+  std::vector<std::string> judged;
+  std::size_t moved = 0;
+  for (const std::string& line : split(result.output, '\n')) {
+    if (!line.starts_with('{')) continue;
+    const Value said = parse_json(line, "progress");
+    if (const Value* row = said.find("judged")) {
+      judged.push_back(row->find("model")->as_string());
+      // What is told of a model is what the leaderboard says of it in the end.
+      CHECK(contains(leaderboard, judged.back() + ",yes," +
+                                      format_exact(row->find("esr_percent")->as_number())));
+    }
+    if (const Value* parameters = said.find("parameters")) {
+      ++moved;
+      CHECK(!parameters->items().empty());
+    }
+  }
+  std::ranges::sort(judged);
+  CHECK(judged == std::vector<std::string>{"bingham", "tanh_kwok"});
+  CHECK(moved > 0);
 }

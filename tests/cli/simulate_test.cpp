@@ -90,3 +90,19 @@ TEST_CASE("simulate: wrong command lines") {
     CHECK(contains(result.output, c.message));
   }
 }
+
+TEST_CASE("simulate: both traces as plain samples, for programs that draw") {
+  const TemporaryFolder folder;
+  const std::string samples = (folder.path() / "samples").string();
+  REQUIRE(run_dashpot("simulate --controller mix1 --duration 1 --road bump --samples " + samples)
+              .exit_code == 0);
+  const Value index = parse_json(read_file(samples + "/samples.json"), "samples.json");
+  const std::vector<Value>& runs = index.find("records")->items();
+  REQUIRE(runs.size() == 2);  // the run, and the passive one
+  std::size_t columns = 0;
+  for (const Value& run : runs) {
+    CHECK(run.find("samples")->as_number() == 1001);
+    columns += run.find("columns")->items().size();
+  }
+  CHECK(std::filesystem::file_size(samples + "/samples.f64") == columns * 1001 * sizeof(double));
+}

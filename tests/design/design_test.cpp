@@ -131,6 +131,30 @@ TEST_CASE("design: what was found stands when stopped") {
   CHECK(some.designs.size() == 8);
 }
 
+TEST_CASE("design: a front that goes on from an earlier one is nowhere worse than it") {
+  DesignOptions options{.points = 8, .generations = 3};
+  const DesignReport before = designed(kFront, options);
+  for (const Design& design : before.designs) options.starts.push_back(design.damper);
+
+  // A design that fails a constraint now is nothing to go on from.
+  options.starts.emplace_back(named_description("passenger_car"));
+  options.starts.back().gap = 2e-3;
+  const DesignReport after = designed(kFront, options);
+  REQUIRE(before.designs.size() == 8);
+  REQUIRE(!after.designs.empty());
+  for (const Design& old : before.designs)
+    CHECK(std::ranges::any_of(after.designs, [&](const Design& now) {
+      const auto &was = old.assessment.goals, &is = now.assessment.goals;
+      return !(was[0] > is[0] && was[1] < is[1]);  // largest dynamic range, smallest mass
+    }));
+  const auto best = [](const DesignReport& report) {
+    return std::ranges::max_element(report.designs, {},
+                                    [](const Design& design) { return design.assessment.goals[0]; })
+        ->assessment.goals[0];
+  };
+  CHECK(best(after) >= best(before));
+}
+
 TEST_CASE("design: of conflicting constraints the fewest are named, with what can be reached") {
   // Power is R I^2 and the current density I / A of the same wire: 1 A/mm^2 at 2 A asks for 1.6 mm.
   // The others hold everywhere.

@@ -103,7 +103,7 @@ TEST_CASE("what callbacks throw comes out") {
   LeastSquaresProblem problem = rosenbrock();
   int last = -1;
   LeastSquaresOptions options;
-  options.on_iteration = [&](int iteration, double) {
+  options.on_iteration = [&](int iteration, double, std::span<const double>) {
     last = iteration;
     if (iteration == 2) throw Interrupted();
   };

@@ -25,8 +25,12 @@ await send(studio.port, {path: "/api/recordings", headers: own});
 
 const nasty = ["..", "../", "%2e%2e%2f", "%00", "\0", "/etc/passwd", "secret", "-1", "1e309", "nan", "9".repeat(400), "{", "[[[[", "\"", "$(id)", ";id", "\r\n", "\xff\xfe", "x".repeat(3000), "", "--output", "&", "=", "%", "%f"];
 const paths = ["/", "/studio.js", "/api/fits", "/api/recordings", "/api/models", "/api/fitted", "/report/x", "/api/session", "/api/token", "/api/upload?name=a.csv",
-  "/api/view?record=0&x=time&y=force&from=0&to=1&width=100", "/api/view?record=0&x=velocity&y=force&width=9", "/api/traces?model=fits%2Fx%2Fmodels%2Fa.json", "/api/module?model=fits%2Fx%2Fmodels%2Fa.json"];
-const bodies = ["{}", `{"token":"x"}`, `{"action":"stop","name":"x"}`, `{"action":"start","name":"","models":["x"]}`, `{"action":"go_on","name":"../x"}`];
+  "/api/view?record=0&x=time&y=force&from=0&to=1&width=100", "/api/view?record=0&x=velocity&y=force&width=9", "/api/traces?model=fits%2Fx%2Fmodels%2Fa.json", "/api/module?model=fits%2Fx%2Fmodels%2Fa.json",
+  "/api/drive", `/api/driven?key=${"0".repeat(32)}&record=0&x=time&y=body`, "/api/machine", "/api/dampers", "/api/design", "/api/work/design", "/api/work/ride", "/api/result/design/x", "/report/design/x",
+  "/api/export", "/api/exports", "/api/exported?folder=x&file=y"];
+const bodies = ["{}", `{"token":"x"}`, `{"action":"stop","name":"x"}`, `{"action":"start","name":"","models":["x"]}`, `{"action":"go_on","name":"../x"}`,
+  `{"plant":"savaresi_spelta","road":"step","duration":0.2}`, `{"plant":"savaresi_spelta","road":"iso8608,class=C","damper":"fits/x/models/a.json","settings":"motion_ratio=0.7"}`,
+  `{"action":"start","name":"../x","request":"damper: passenger_car"}`, `{"model":"fits/x/models/a.json","formats":["c"],"name":"x"}`];
 const heads = Object.entries(own).map(([name, value]) => `${name}: ${value}`);
 
 function changed(text) {

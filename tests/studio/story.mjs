@@ -1,9 +1,10 @@
-// One story in headless Chromium, from an empty project: recordings are dropped in, a unit is corrected, models are
-// fitted and compared; the studio ends with a fit running and finds everything again.
+// One story in headless Chromium, from an empty project: recordings are chosen and dropped in, a unit is corrected,
+// models are fitted, compared, driven in a car and exported, a damper is designed; the studio ends with a fit running
+// and finds everything again.
 // usage: node story.mjs DASHPOT [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
+import {cpSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 import {make_folder, remove_folder, start} from "./studio.mjs";
 
@@ -31,6 +32,8 @@ writeFileSync(join(bench, lying), readFileSync(join(bench, lying), "utf8").repla
 const messy = join(scratch, "messy");
 mkdirSync(messy);
 writeFileSync(join(messy, "notes.txt"), "bring the spanner");
+mkdirSync(join(messy, "deep", ".hidden"), {recursive: true});
+writeFileSync(join(messy, "deep", ".hidden", "secret.csv"), "t_s,x_mm,F_N\n0,1,2\n");
 writeFileSync(join(messy, "broken.csv"), "t_s,x_mm,F_N\n0,1,2\n0.1,abc,3\n0.2,1,2\n");
 
 let studio = await start(program, folder);
@@ -70,11 +73,24 @@ const until_ink = async (figure) => {
   assert.fail(`no curve in ${await figure.textContent()}`);
 };
 
+// Drags these files and folders from outside into the page, as a hand does.
+async function drop(page, paths) {
+  const box = await page.locator(".drop").boundingBox(), session = await context.newCDPSession(page);
+  const at = {x: box.x + box.width / 2, y: box.y + box.height / 2, data: {items: [], files: paths, dragOperationsMask: 1}};
+  for (const type of ["dragEnter", "dragOver", "drop"]) await session.send("Input.dispatchDragEvent", {type, ...at});
+  await session.detach();
+}
+
 async function recordings(page) {
   assert.match(await page.locator(".empty").textContent(), /Drop recordings/);
   await shoot(page, "1-empty");
-  await page.setInputFiles("#files", [...files.map((name) => join(bench, name)), join(messy, "notes.txt"), join(messy, "broken.csv")]);
+  await page.setInputFiles("#files", files.slice(0, 15).map((name) => join(bench, name)));
+  await page.locator(".list li").nth(14).waitFor();
+  await drop(page, [...files.slice(15).map((name) => join(bench, name)), messy]);
   await page.locator(".list li").nth(19).waitFor();
+  await page.getByText("1 not read").waitFor();
+  assert.ok(existsSync(join(folder, "recordings", "messy", "notes.txt")), "a folder keeps its names");
+  assert.ok(!existsSync(join(folder, "recordings", "messy", "deep")), "what is hidden stays out");
   assert.equal(await page.locator(".list li").count(), 20);
   assert.match(await page.locator(".side").textContent(), /broken\.csv.*abc/s, "what could not be read is said, with its place");
   for (const title of ["Displacement", "Force", "Force over velocity", "Force over displacement"]) await until_ink(plot(page, title));
@@ -103,8 +119,7 @@ async function correction(page) {
 // The command that the page shows makes the same file, to the bit.
 function same_dataset_file() {
   const theirs = join(scratch, "theirs");
-  mkdirSync(join(theirs, "recordings"), {recursive: true});
-  for (const name of readdirSync(join(folder, "recordings"))) writeFileSync(join(theirs, "recordings", name), readFileSync(join(folder, "recordings", name)));
+  cpSync(join(folder, "recordings"), join(theirs, "recordings"), {recursive: true});
   try {
     execFileSync(program, ["inspect", theirs, "--quiet", "--correct", `recordings/${lying}`, "--set", "force.unit=N"], {stdio: "pipe"});
   } catch (error) { assert.equal(error.status, 4, String(error.stderr)); }
@@ -124,8 +139,13 @@ async function fitting(page) {
   await page.getByRole("button", {name: /^Fit/}).click();
   await page.locator("progress").waitFor();
   await page.locator("figure canvas").first().waitFor({timeout: 60000});
+  assert.match(await page.locator(".moving").first().textContent(), /^\w+.*: .* = /, "parameters are shown as they move");
   await shoot(page, "4-fitting");
   await page.locator("section table").waitFor({timeout: 120000});
+  const first = await page.locator("section tbody tr").count();
+  assert.ok(first < kFour.length, `a model stands in the leaderboard when it ends, not with the last: ${first}`);
+  await page.getByRole("link", {name: "Report"}).waitFor({timeout: 120000});
+  await page.locator("section progress").waitFor({state: "detached"});
   assert.equal(await page.locator("section tbody tr").count(), kFour.length);
   await shoot(page, "5-leaderboard");
   assert.ok(existsSync(join(folder, "fits", "four models", "report.html")));
@@ -153,6 +173,110 @@ async function comparing(page) {
   await shoot(page, "6-compare");
 }
 
+// A project's model in a quarter car beside another one: what the page shows is what the command says.
+async function driving(page) {
+  await tab(page, "Machine");
+  const damper = (k) => page.locator(".one-damper").nth(k);
+  const driven = async (act) => {
+    const [response] = await Promise.all([page.waitForResponse((r) => r.url().endsWith("/api/drive") && r.request().method() === "POST"), act()]);
+    const got = await response.json();
+    assert.equal(response.status(), 200, got.error);
+    return got;
+  };
+  await until_ink(plot(page, "Body acceleration"));
+  const first = await driven(() => damper(0).locator("select").first().selectOption("fits/four models/models/tanh_kwok.json"));
+  const own = JSON.parse(execFileSync(program, [...first.arguments, "--json", "--quiet"], {encoding: "utf8", stdio: ["ignore", "pipe", "ignore"]}));
+  for (const part of ["plant", "ground", "run", "against"]) assert.deepEqual(first[part], own[part], part);
+  await driven(() => damper(1).locator("select").first().selectOption("fits/four models/models/bingham.json"));
+  await page.locator(".legend", {hasText: "B"}).first().waitFor();
+
+  // A slider of a controller is moved by the keyboard, and each step is driven.
+  await driven(() => damper(1).locator("select").nth(1).selectOption("mix1"));
+  const points = page.locator("figure", {has: page.getByRole("heading", {name: "Comfort against road holding"})}).locator("circle");
+  const slider = damper(1).locator("input[type=range]").first();
+  await slider.focus();
+  const moved = await driven(() => slider.press("ArrowRight"));
+  assert.match(moved.arguments.join(" "), /mix1,crossover=/);
+  await page.locator("table th", {hasText: "passive"}).waitFor();
+  for (const title of ["Body acceleration", "Tyre load", "Damper force", "The damper at work"]) await until_ink(plot(page, title));
+  assert.ok(await points.count() >= 5, "every drive leaves a point");
+  await shoot(page, "7-machine");
+
+  // A step; and what cannot be is said.
+  const step = await driven(() => page.locator(".side > .field", {hasText: /^Road/}).locator("select").selectOption("step"));
+  assert.ok(step.run.measures.some((measure) => measure.name === "settling"));
+  await page.getByRole("cell", {name: "settling", exact: true}).waitFor();
+  const before = problems.length;
+  await damper(1).locator("input:not([type])").first().fill("fast");
+  assert.match(await page.locator("[role=alert]").first().textContent(), /B: .*fast/s);
+  await damper(1).locator("input:not([type])").first().fill("1.5");
+  await page.locator("[role=alert]").waitFor({state: "detached"});
+  for (const refused of problems.splice(before)) assert.match(refused, /status of 400/);
+
+  // All controllers ride in the background, and can be stopped.
+  await page.getByRole("button", {name: "Ride them with damper A"}).click();
+  await page.locator("section progress").waitFor();
+  await page.locator("section").getByRole("button", {name: "Stop"}).click();
+  await page.getByRole("button", {name: "Ride again"}).waitFor();
+}
+
+// A front of designs is that of the command line, to the bit; one of it is picked and driven.
+async function designing(page) {
+  await tab(page, "Design");
+  await page.getByLabel("Least value of gap").fill("0.7 mm");
+  await page.getByLabel("Designs", {exact: true}).fill("12");
+  await page.getByLabel("Generations").fill("4");
+  await page.getByLabel("Name of its folder").fill("car");
+  await page.getByRole("button", {name: "Search", exact: true}).click();
+  const front = page.locator("figure", {has: page.getByRole("heading", {name: /^The front/})});
+  await front.waitFor({timeout: 120000});
+  const place = join(folder, "designs", "car"), own = join(scratch, "own-design");
+  assert.match(readFileSync(join(place, "request.yaml"), "utf8"), /^damper: passenger_car$[^]*^ {2}gap: \{from: 0\.7 mm, to: 2 mm\}$/m);
+  execFileSync(program, ["design", join(place, "request.yaml"), "--points", "12", "--generations", "4", "--seed", "1", "--output", own], {stdio: "ignore"});
+  assert.equal(readFileSync(join(own, "design.csv"), "utf8"), readFileSync(join(place, "design.csv"), "utf8"));
+
+  const title = page.locator("section h3", {hasText: /^design_\d+/});
+  const knee = await title.textContent();
+  await front.locator(".canvas").focus();
+  for (const key of ["ArrowLeft", "ArrowRight"]) if (await title.textContent() === knee) {
+    await page.keyboard.press(key);
+    await new Promise((done) => setTimeout(done, 200));
+  }
+  assert.notEqual(await title.textContent(), knee, "another design is picked");
+  const name = /^design_\d+/.exec(await title.textContent())[0];
+  const design = JSON.parse(readFileSync(join(place, "design.json"), "utf8")).designs.find((d) => d.name === name);
+  assert.match(await page.locator("section").first().textContent(), new RegExp(String(+design.goals[1].toPrecision(4)).replace(".", "\\.")), "its mass is shown");
+  await shoot(page, "8-design");
+  await page.getByRole("button", {name: "Drive it"}).click();
+  await until_ink(plot(page, "Damper force"));
+  assert.match(await page.locator(".work .command").first().textContent(), new RegExp(`designs/car/models/${name}\\.json`));
+}
+
+// A model becomes an FMU and C, which are those of the command line, and comes as one archive.
+async function exporting(page) {
+  await tab(page, "Export");
+  await page.locator(".side .field select").first().selectOption("fits/four models/models/bouc_wen.json");
+  await page.locator(".checks input[value=c]").check();
+  await page.locator(".checks input[value=fmu3]").check();
+  await page.getByRole("button", {name: "Export", exact: true}).click();
+  await page.locator("section table").waitFor();
+  const place = join(folder, "exports", "four models, bouc_wen"), names = readdirSync(place);
+  for (const ending of [".c", ".h", "_fmi3.fmu", "report.html"]) assert.ok(names.some((name) => name.endsWith(ending)), ending);
+  const [archive] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", {name: "All as a zip"}).click()]);
+  assert.equal(archive.suggestedFilename(), "four models, bouc_wen.zip");
+  const bytes = readFileSync(await archive.path());
+  assert.equal(bytes.subarray(0, 4).toString("latin1"), "PK\x03\x04");
+  const fmu = names.find((name) => name.endsWith(".fmu"));
+  for (const name of [fmu, "report.html"]) assert.ok(bytes.includes(name), name);
+  const [single] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", {name: fmu}).click()]);
+  assert.deepEqual(readFileSync(await single.path()), readFileSync(join(place, fmu)));
+
+  const own = join(scratch, "own-export"), of_command = (text) => text.replace(/^.*dashpot export.*$/gm, "");
+  execFileSync(program, ["export", join(folder, "fits", "four models", "models", "bouc_wen.json"), "--to", "c", "--output", own], {stdio: "ignore"});
+  for (const name of readdirSync(own)) assert.equal(of_command(readFileSync(join(own, name), "utf8")), of_command(readFileSync(join(place, name), "utf8")), name);
+  await shoot(page, "9-export");
+}
+
 // The studio ends with a fit running; the next one finds everything, and goes on.
 async function restart(page) {
   await tab(page, "Fits");
@@ -173,6 +297,15 @@ async function restart(page) {
   await many.getByRole("button", {name: "Stop"}).click();
   await many.getByRole("button", {name: "Go on"}).waitFor();
   assert.ok(await next.locator("section", {hasText: "four models"}).locator("table").count() === 1);
+
+  // Designs, rides and exports are there as well.
+  await tab(next, "Design");
+  await next.getByRole("heading", {name: /^The front/}).waitFor();
+  await tab(next, "Machine");
+  await next.locator("section h3", {hasText: "ride-1"}).waitFor();
+  await until_ink(plot(next, "Body acceleration"));
+  await tab(next, "Export");
+  await next.getByRole("link", {name: "All as a zip"}).waitFor();
   return next;
 }
 
@@ -180,18 +313,22 @@ async function small_and_dark(page) {
   await tab(page, "Recordings");
   await page.getByRole("button", {name: "Dark"}).click();
   await until_ink(plot(page, "Force over velocity"));
-  await shoot(page, "7-dark");
+  await shoot(page, "10-dark");
   await page.setViewportSize({width: 390, height: 844});
-  const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
-  const wide = await page.evaluate(() => [...document.querySelectorAll("body *")].filter((e) => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest(".frame")).map((e) => `${e.tagName}.${e.className}`).slice(0, 8));
-  assert.ok(content <= window, `${wide}: the page is ${content} px wide in a window of ${window}`);
-  await shoot(page, "8-phone");
+  for (const view of ["Machine", "Design", "Export", "Recordings"]) {
+    await tab(page, view);
+    await page.locator("main .work").waitFor();
+    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    const wide = await page.evaluate(() => [...document.querySelectorAll("body *")].filter((e) => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest(".frame")).map((e) => `${e.tagName}.${e.className}`).slice(0, 8));
+    assert.ok(content <= window, `${view}, ${wide}: the page is ${content} px wide in a window of ${window}`);
+  }
+  await shoot(page, "11-phone");
 }
 
 try {
   const page = await open(studio.address);
   assert.equal(new URL(page.url()).hash, "", "the token leaves the address");
-  for (const step of [recordings, correction, same_dataset_file, fitting, same_models, comparing]) {
+  for (const step of [recordings, correction, same_dataset_file, fitting, same_models, comparing, driving, designing, exporting]) {
     const begun = Date.now();
     await step(page);
     console.log(`${step.name}: ${Date.now() - begun} ms`);

@@ -46,6 +46,7 @@ try {
   const request = "damper: passenger_car\nat: {current: 2 A, velocity: 0.3 m/s}\nvary: {gap: {from: 0.6 mm, to: 2 mm}}\ngoals:\n  - {maximise: force}\n  - {minimise: off_force}\n";
   assert.deepEqual(await both((own) => post(own, "/api/fits", {action: "start", name: "same", models: ["bingham"], leave_out: "fraction=0.3"})), [200, 400]);
   assert.deepEqual(await both((own) => post(own, "/api/work/design", {action: "start", name: "same", request, points: 8, generations: 3})), [200, 400]);
+  assert.deepEqual(await both((own) => post(own, "/api/work/ride", {action: "start", name: "same", ...vehicle, controllers: ["skyhook"]})), [200, 400]);
   const until_ended = async (path, key) => {
     for (let k = 0; k < 600; ++k) {
       const work = (await get(first, path))[key].find((w) => w.name === "same");
@@ -54,10 +55,13 @@ try {
     }
     assert.fail(`${path} does not end`);
   };
-  for (const [path, key] of [["/api/fits", "fits"], ["/api/work/design", "work"]]) {
+  for (const [path, key] of [["/api/fits", "fits"], ["/api/work/design", "work"], ["/api/work/ride", "work"]]) {
     const work = await until_ended(path, key);
     assert.equal(work.state, "done", JSON.stringify(work));
   }
+
+  const ride = await get(second, "/api/result/ride/same");
+  assert.deepEqual(ride.controlled.map((one) => one.name), ["skyhook"]);
 
   // The same drive and the same export of both: the same answer, and an archive that is whole.
   const driven = await Promise.all(browsers.map((own) => post(own, "/api/drive", {...vehicle, damper: "fits/same/models/bingham.json", controller: "skyhook"})));
@@ -75,7 +79,7 @@ try {
   const again = await open(studio);
   assert.equal((await get(again, "/api/fits")).fits[0].state, "done");
   assert.equal((await get(again, "/api/work/design")).work[0].state, "done");
-  for (const results of ["fits", "designs"]) JSON.parse(readFileSync(join(folder, results, "same", "studio.json"), "utf8"));
+  for (const results of ["fits", "designs", "rides"]) JSON.parse(readFileSync(join(folder, results, "same", "studio.json"), "utf8"));
   assert.deepEqual(readdirSync(join(folder, ".studio", "incoming")), []);
   console.log("two browsers did not disturb each other");
 } finally {

@@ -66,7 +66,7 @@ function Front({one, result, theme, go}) {
     <${Scatter} title="The front: ${result.designs.length} designs" x_label=${label(ax)} y_label=${label(ay)} points=${points} chosen=${at} on_choose=${set_chosen} theme=${theme} keep=${`front-${one.name}`} height=${360} />
     <div class="row"><h3>${design.name}${design.role ? `: ${design.role}` : ""}</h3>
       <button class="plain" onClick=${() => { drive_model(model); go("machine"); }}>Drive it</button>
-      <button class="plain" onClick=${() => { keep("export.model", model); keep("export.done", undefined); go("export"); }}>Export it</button></div>
+      <button class="plain" onClick=${() => { keep("export.model", model); go("export"); }}>Export it</button></div>
     <div class="plots"><div class="frame"><table><caption class="hidden">Sizes of ${design.name}</caption><thead><tr><th>Size</th><th class="number">Value</th></tr></thead>
         <tbody>${result.variables.map((row, k) => html`<tr key=${row.name} title=${row.meaning}><td>${spoken(row.name)}</td><td class="number">${shown(design.variables[k], row)}</td></tr>`)}</tbody></table></div>
       <div class="frame"><table><caption class="hidden">Goals and constraints of ${design.name}</caption><thead><tr><th>Asked</th><th class="number">Reached</th></tr></thead>
@@ -77,7 +77,7 @@ function Front({one, result, theme, go}) {
 
 function DesignWork({one, act, theme, go}) {
   const result = useResult("design", one);
-  return html`<section class="fit" aria-label="Design ${one.name}"><${WorkHead} kind="design" one=${one} act=${act} again="Search again" />
+  return html`<section class="fit" aria-label="Design ${one.name}"><${WorkHead} kind="design" one=${one} act=${act} again="Go on" is_endless=${true} />
     ${result && html`<${Front} one=${one} result=${result} theme=${theme} go=${go} />`}
     ${one.arguments.length > 0 && html`<${Command} words=${one.arguments} />`}</section>`;
 }

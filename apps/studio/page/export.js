@@ -16,8 +16,10 @@ export function Export({version, fits}) {
   const [models, set_models] = useState(), [formats, set_formats] = useState([]);
   const [chosen, set_chosen] = useKept("export.model", ""), [wanted, set_wanted] = useKept("export.formats", ["fmu3"]);
   const [more, set_more] = useKept("export.more", {name: "", precision: "", sample_time: ""});
-  const [done, set_done] = useKept("export.done"), [error, set_error] = useState(""), [busy, set_busy] = useState(false);
+  const [done, set_done] = useState([]), [error, set_error] = useState(""), [busy, set_busy] = useState(false);
   useEffect(() => { ask("/api/dampers").then((got) => set_models(got.models)); }, [version, fits]);
+  const reload = () => ask("/api/exports").then((got) => set_done(got.exports));
+  useEffect(() => { reload(); }, []);
   useEffect(() => { ask("/api/formats").then((got) => set_formats(got.formats)); }, []);
   const model = models?.includes(chosen) ? chosen : models?.[0] ?? "";
   const turn = (name) => () => set_wanted(wanted.includes(name) ? wanted.filter((f) => f !== name) : [...wanted, name]);
@@ -27,7 +29,7 @@ export function Export({version, fits}) {
     const got = await tell("/api/export", {model, formats: formats.map((f) => f.name).filter((f) => wanted.includes(f)), ...more}).catch((problem) => ({error: problem.message}));
     set_busy(false);
     set_error(got.error ?? "");
-    set_done(got.error ? undefined : {...got, model});
+    await reload();
   };
   const link = (folder, file) => `/api/exported?${new URLSearchParams({folder, ...(file ? {file} : {})})}`;
   const field = (key) => (event) => set_more({...more, [key]: event.target.value});
@@ -44,13 +46,13 @@ export function Export({version, fits}) {
       ${error && html`<p class="error" role="alert">${error}</p>`}
     </form>
     <div class="work"><h2>Files</h2>
-      ${!done ? html`<p class="empty">${models?.length === 0 ? "Fitted and designed models can be exported; there is none yet." : "Choose a model and what it is to become."}</p>` : html`
-        <section class="fit" aria-label="Export of ${model_label(done.model)}">
-          <header><h3>${model_label(done.model)}</h3><span class="state" role="status">${done.files.length} files in exports/${done.folder}</span>
-            <a class="strong" href=${link(done.folder)} download>All as a zip</a></header>
+      ${done.length === 0 ? html`<p class="empty">${models?.length === 0 ? "Fitted and designed models can be exported; there is none yet." : "Choose a model and what it is to become."}</p>` : done.map((one) => html`
+        <section class="fit" key=${one.folder} aria-label="Export of ${model_label(one.model)}">
+          <header><h3>${model_label(one.model)}</h3><span class="state" role="status">${one.files.length} files in exports/${one.folder}</span>
+            <a class="strong" href=${link(one.folder)} download>All as a zip</a></header>
           <div class="frame"><table><caption class="hidden">The files of this export</caption><thead><tr><th>File</th><th class="number">Size</th></tr></thead>
-            <tbody>${done.files.map((file) => html`<tr key=${file.name}><td><a href=${link(done.folder, file.name)} download>${file.name}</a></td><td class="number">${size_text(file.bytes)}</td></tr>`)}</tbody></table></div>
-          <${Command} words=${done.arguments} />
-        </section>`}
+            <tbody>${one.files.map((file) => html`<tr key=${file.name}><td><a href=${link(one.folder, file.name)} download>${file.name}</a></td><td class="number">${size_text(file.bytes)}</td></tr>`)}</tbody></table></div>
+          <${Command} words=${one.arguments} />
+        </section>`)}
     </div></main>`;
 }

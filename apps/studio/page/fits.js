@@ -62,6 +62,7 @@ function Fit({fit, theme, act}) {
     ${fit.state === "running" && html`<progress max="1" value=${fit.fraction} aria-label="Progress of ${fit.name}"></progress>`}
     ${fit.message && html`<p class="error">${fit.message}</p>`}
     ${curves.length > 0 && fit.state !== "done" && html`<${Plot} title="Error of each fit as it falls" x_label="Time (s)" y_label="Error (% of the search's start)" is_log=${true} series=${curves} theme=${theme} height=${200} />`}
+    ${fit.state === "running" && fit.parameters && html`<p class="note moving" aria-label="Parameters of ${fit.parameters.of} as they move">${fit.parameters.of}: ${fit.parameters.values.map(([name, value]) => html`<span>${name} = ${value.toPrecision(4)}</span> `)}</p>`}
     ${fit.state === "running" && fit.judged.length > 0 && html`<${Leaderboard} table=${table_of(fit.judged)} name=${fit.name} />`}
     ${fit.leaderboard && fit.state === "done" && html`<${Leaderboard} table=${fit.leaderboard} name=${fit.name} />`}
     ${fit.arguments.length > 0 && html`<${Command} words=${fit.arguments} />`}

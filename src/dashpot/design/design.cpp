@@ -34,6 +34,8 @@ class DesignRun {
  private:
   OptimiseOptions search_options(const std::string& stage, double from, double to);
   std::vector<std::vector<double>> best_of_each_goal();
+  /// The places of the designs to go on from, as far as they hold the constraints.
+  std::vector<std::vector<double>> earlier_places() const;
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
   /// Whether not even the drawn damper, without tolerances, comes near to the constraints of a
   /// fitted model: found within seconds, where a robust search would take minutes to say the same.
@@ -97,6 +99,15 @@ std::vector<std::vector<double>> DesignRun::best_of_each_goal() {
     report_.stopped = report_.stopped || optimum.stopped;
     if (optimum.place.empty() || optimum.violation > 0) break;  // neither can it for another goal
     places.push_back(optimum.place);
+  }
+  return places;
+}
+
+std::vector<std::vector<double>> DesignRun::earlier_places() const {
+  std::vector<std::vector<double>> places;
+  for (const DamperDescription& start : report_.options.starts) {
+    const std::vector<double> place = problem_.place_of(start);
+    if (problem_.assess(problem_.damper_at(place)).holds()) places.push_back(place);
   }
   return places;
 }
@@ -277,7 +288,8 @@ DesignReport DesignRun::run() {
   const auto start = std::chrono::steady_clock::now();
   const bool hopeless = is_hopeless();
   std::vector<std::vector<double>> places;
-  if (!hopeless) places = best_of_each_goal();
+  if (!hopeless && report_.request.goals.size() > 1) places = earlier_places();
+  if (!hopeless && places.empty()) places = best_of_each_goal();
   if (places.empty() && !hopeless && !report_.stopped) places = explain();
   if (report_.request.goals.size() > 1 && !places.empty() && !report_.stopped)
     places = front_from(std::move(places));

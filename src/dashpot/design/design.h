@@ -25,6 +25,9 @@ struct DesignOptions {
   /// Keeps designs at which a family's model leaps beyond physics (kMostLeap); else they are
   /// refused.
   bool insist = false;
+  /// Designs of an earlier run, from which the search for a front goes on in place of the best for
+  /// each goal. Those that fail a constraint of the request are left out.
+  std::vector<DamperDescription> starts = {};
   Monitor monitor;
 };
 

@@ -31,6 +31,13 @@ double range_value(const DesignVariable& v, double place, std::optional<std::siz
   return v.from + place * (v.to - v.from);
 }
 
+/// The place at which a range without steps has a value, as range_value() has it.
+double place_of_value(const DesignVariable& v, double value) {
+  const double place = is_logarithmic(v) ? std::log(value / v.from) / std::log(v.to / v.from)
+                                         : (value - v.from) / (v.to - v.from);
+  return std::isfinite(place) ? std::clamp(place, 0., 1.) : 0.5;
+}
+
 void set_variable(const DesignVariable& variable, double place, std::optional<std::size_t> level,
                   DamperDescription& damper) {
   if (!variable.fluids.empty())
@@ -119,6 +126,33 @@ DamperDescription DesignProblem::damper_at(std::span<const double> place, bool r
   }
   follow(damper);
   return damper;
+}
+
+std::vector<double> DesignProblem::place_of(const DamperDescription& damper) const {
+  std::vector<double> place;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const DesignVariable& variable = request_.variables[k];
+    if (variable.levels() == 0) {
+      place.push_back(place_of_value(variable, damper.*variable.field->field));
+      continue;
+    }
+
+    // Of levels the nearest; of fluids the damper's own, or the first.
+    std::size_t nearest = 0;
+    double least = INFINITY;
+    for (std::size_t level = 0; level < variable.levels(); ++level) {
+      DamperDescription trial = request_.damper;
+      set_variable(variable, 0, level, trial);
+      const double distance =
+          variable.field ? std::abs(trial.*variable.field->field - damper.*variable.field->field)
+                         : (trial.fluid == damper.fluid ? 0. : 1.);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = level;
+    }
+    place.push_back(place_of_level(k, nearest));
+  }
+  return place;
 }
 
 void DesignProblem::follow(DamperDescription& damper) const {

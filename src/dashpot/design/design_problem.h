@@ -34,6 +34,8 @@ class DesignProblem {
 
   /// The damper at a place of the unit cube. `relaxed`: ranges with steps are taken without them.
   DamperDescription damper_at(std::span<const double> place, bool relaxed = false) const;
+  /// The place of the damper that is nearest to this one in each variable by itself.
+  std::vector<double> place_of(const DamperDescription& damper) const;
   /// The place at which variable k takes its level (for a variable with levels), and the level at a
   /// place.
   double place_of_level(std::size_t k, std::size_t level) const;

@@ -25,7 +25,9 @@ LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations
   solver.max_iterations = iterations;
   solver.function_tolerance = tolerance;
   solver.threads = options.threads;
-  solver.on_iteration = [&options](int, double) { options.monitor.check(); };
+  solver.on_iteration = [&options](int, double, std::span<const double>) {
+    options.monitor.check();
+  };
   return solver;
 }
 

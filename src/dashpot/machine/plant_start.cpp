@@ -197,7 +197,9 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   solver.max_iterations = kIterations;
   solver.function_tolerance = kTolerance;
   solver.threads = options.threads;
-  solver.on_iteration = [&options](int, double) { options.monitor.check(); };
+  solver.on_iteration = [&options](int, double, std::span<const double>) {
+    options.monitor.check();
+  };
   const LeastSquaresReport solved =
       solve(residuals.problem(0, options.threads), residuals.start(start.plant), solver);
   if (std::isfinite(solved.cost)) {

@@ -116,7 +116,7 @@ class LeastSquaresListener final : public ceres::IterationCallback {
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     try {
       if (!failure_ && options_.on_iteration)
-        options_.on_iteration(report_.iterations + summary.iteration, summary.cost);
+        options_.on_iteration(report_.iterations + summary.iteration, summary.cost, report_.x);
     } catch (...) {
       failure_ = std::current_exception();
     }

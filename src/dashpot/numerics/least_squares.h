@@ -34,7 +34,8 @@ struct LeastSquaresOptions {
   bool normal_equations = false;     ///< quicker with many unknowns, at half the digits
   int hopeless_after = 0;            ///< gives up when after so many iterations (0: never) ...
   double hopeless_cost = 0;          ///< ... the cost is still above this
-  std::function<void(int iteration, double cost)> on_iteration;  ///< may throw to stop
+  /// `x`: the best so far; may throw to stop.
+  std::function<void(int iteration, double cost, std::span<const double> x)> on_iteration;
 };
 
 /// How the search ended. n unknowns, m residuals: normal_matrix is n x n, gradient n; rows and

@@ -171,7 +171,7 @@ class PhysicsProblem {
     options.max_iterations = iterations;
     options.function_tolerance = 1e-4;
     options.threads = 1;
-    options.on_iteration = [&](int, double) { monitor_.check(); };
+    options.on_iteration = [&](int, double, std::span<const double>) { monitor_.check(); };
     return solve(problem, std::move(x), options);
   }
 

@@ -14,6 +14,20 @@
 namespace dashpot {
 namespace {
 
+/// solver_options() that also tell of the parameters as they move.
+LeastSquaresOptions watched_options(const LawTask& task, int iterations, double tolerance) {
+  LeastSquaresOptions solver = solver_options(task.options, iterations, tolerance);
+  if (!task.options.on_parameters) return solver;
+  solver.on_iteration = [&task](int, double cost, std::span<const double> x) {
+    task.options.monitor.report_cost(cost);
+    std::vector<std::pair<std::string, double>> parameters;
+    for (const LawUnknowns::Coefficient& c : task.unknowns.coefficients(x))
+      parameters.emplace_back(c.name, c.value);
+    task.options.on_parameters(task.options.monitor.stage, parameters);
+  };
+  return solver;
+}
+
 constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 /// The best point that a global search finds within some times the expected size of each unknown.
@@ -73,7 +87,7 @@ std::vector<double> best_start(const LawTask& task, std::vector<std::vector<doub
   std::vector<double> best = starts.front();
   double best_cost = INFINITY;
   const auto attempt = [&](const std::vector<double>& start) {
-    LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+    LeastSquaresOptions solver = watched_options(task, kIterations, kTolerance);
     if (std::isfinite(best_cost)) {
       solver.hopeless_after = kHopelessAfter;
       solver.hopeless_cost = kHopeless * best_cost;
@@ -118,7 +132,7 @@ LeastSquaresReport solve_twice(const LawTask& task, const LeastSquaresProblem& p
   constexpr double kTolerance = 1e-6, kHopeless = 1.02;
 
   // The first fit runs to the end.
-  LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+  LeastSquaresOptions solver = watched_options(task, kIterations, kTolerance);
   LeastSquaresReport first = solve(problem, std::move(x), solver);
 
   // Move the unknowns that nothing holds at a bound back inside; done where there are none.
@@ -133,7 +147,7 @@ LeastSquaresReport solve_twice(const LawTask& task, const LeastSquaresProblem& p
   if (second.cost >= first.cost) return first;
   return second.converged
              ? second
-             : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
+             : solve(problem, second.x, watched_options(task, kIterations, kTolerance));
 }
 
 /// The parameters that must not fall over the drive (Fit::Rises), and do at the end of this fit.
@@ -321,7 +335,9 @@ LeastSquaresOptions solver_options(const IdentifyOptions& options, int iteration
   solver.max_iterations = iterations;
   solver.function_tolerance = tolerance;
   solver.threads = options.threads;
-  solver.on_iteration = [&options](int, double cost) { options.monitor.report_cost(cost); };
+  solver.on_iteration = [&options](int, double cost, std::span<const double>) {
+    options.monitor.report_cost(cost);
+  };
   return solver;
 }
 

@@ -51,10 +51,10 @@ std::string fingerprint(const std::vector<Record>& records) {
 
 NamedTexts describe_options(const IdentifyOptions& identify_options) {
   // All members by name, so that a new option does not compile until it is dealt with here. Threads
-  // and monitor do not change a fit.
+  // and who follows it do not change a fit.
   const auto& [offset, choices, allow_active, asymmetric, network, starts, search, from, seed,
-               threads, monitor] = identify_options;
-  (void)threads, (void)monitor;
+               threads, monitor, on_parameters] = identify_options;
+  (void)threads, (void)monitor, (void)on_parameters;
   NamedTexts texts{
       {"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},
       {"parameter choices", text_of(choices)},

@@ -259,7 +259,8 @@ TrainReport train_free_run(Mlp& mlp, const NarxSamples& samples, const NarxTrain
   LeastSquaresOptions how{.max_iterations = options.max_iterations,
                           .function_tolerance = options.tolerance,
                           .threads = 1};
-  if (options.on_iteration) how.on_iteration = [&](int, double) { options.on_iteration(); };
+  if (options.on_iteration)
+    how.on_iteration = [&](int, double, std::span<const double>) { options.on_iteration(); };
 
   // Keep what was found, unless it is no number.
   const LeastSquaresReport found = solve(squares, mlp.parameters, how);
