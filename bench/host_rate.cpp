@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <sys/resource.h>
 #include <thread>
@@ -40,16 +41,16 @@ int main(int argc, char** argv) {
 
   const fs::path file = fs::temp_directory_path() / "dashpot-host-rate.sqlite";
   Store::remove(file);
-  Store store(file, {"host rate", 1, "remove this file"});
+  std::optional<Store> store(std::in_place, file, StoreFormat{"host rate", 1, "remove this file"});
   std::vector<std::size_t> numbers(tasks);
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   const std::string result(bytes, 'x');
 
   const double cpu = process_cpu();
   const auto begin = std::chrono::steady_clock::now();
-  farm_out(numbers, 1, store, "", [&](std::size_t number) {
+  farm_out(numbers, 1, *store, "", [&](std::size_t number) {
     const std::string key = "task " + std::to_string(number);
-    if (!store.load(key)) store.save(key, result);
+    if (!store->load(key)) store->save(key, result);
     // Rank 0 leaves the work to the others, and only serves.
     if (!ranks().is_alone() && !ranks().is_worker())
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -60,7 +61,8 @@ int main(int argc, char** argv) {
     std::printf("%zu ranks, results of %zu bytes: %.0f tasks/s; CPU time of rank 0 %.1f us a task\n",
                 ranks().count(), bytes, static_cast<double>(tasks) / wall,
                 1e6 * (process_cpu() - cpu) / static_cast<double>(tasks));
-  leave_ranks();
+  store.reset();
   Store::remove(file);
+  leave_ranks();
   return 0;
 }

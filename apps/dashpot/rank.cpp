@@ -99,9 +99,9 @@ int run_rank(const RankSettings& settings, Console& console) {
   const std::unique_ptr<FitStore> store = fit_store(asked, console);
   const ChosenModels models = chosen_models(asked.fit, data.dataset, data.leave_out, console);
   const IdentifyOptions options = identify_options(asked.fit, models.names, console);
+  PartReport made;
   if (are_dealt_out(part)) {
-    const PartReport made =
-        rank_part(models.names, data.dataset, data.leave_out, options, *store, part);
+    made = rank_part(models.names, data.dataset, data.leave_out, options, *store, part);
     if (ranks().is_worker()) return kDone;
     if (!part.is_all()) return finish_part(made, part, "fit", folder / "fits.sqlite", console);
   }
@@ -109,6 +109,10 @@ int run_rank(const RankSettings& settings, Console& console) {
   // All of it, or what is left to do when the tasks have been shared: to judge.
   Ranking ranking = rank_and_tell(models.names, data.dataset, data.leave_out, options, store.get(),
                                   [&](const RankedModel& model) { tell_judged(model, console); });
+  if (!ranks().is_alone()) {
+    ranking.kept_fits = made.kept;
+    ranking.wall_seconds += made.wall_seconds;
+  }
   ranking.budget = models.budget;
   ride_models(ranking, data.dataset, ride, console);
   const ReportInput input = report_input(data.dataset, ranking, console);

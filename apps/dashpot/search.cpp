@@ -180,14 +180,19 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
 
   // Trials kept from an interrupted search are not fitted again.
+  PartReport made;
   if (are_dealt_out(part)) {
     TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
     tell_dropped(store.dropped(), file, console);
-    const PartReport made = search_part(data.dataset, data.leave_out, options, store, part);
+    made = search_part(data.dataset, data.leave_out, options, store, part);
     if (ranks().is_worker()) return kDone;
     if (!part.is_all()) return finish_part(made, part, "fit", file, console);
   }
-  const SearchReport report = run_search(data, options, file, console);
+  SearchReport report = run_search(data, options, file, console);
+  if (!ranks().is_alone()) {
+    report.kept = made.kept;
+    report.wall_seconds += made.wall_seconds;
+  }
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
                           date_now()};
 

@@ -106,13 +106,18 @@ int run_sweep(const SweepSettings& settings, Console& console) {
     if (settings.results.fresh) Store::remove(file);
     SweepStore store(file, request, program_id());
     tell_dropped(store.dropped(), file, console);
+    const std::size_t kept = ranks().is_alone() ? 0 : store.load().size();
+    PartReport made;
     if (are_dealt_out(part)) {
-      const PartReport made =
-          sweep_part(request, store, {settings.threads, console.monitor()}, part);
+      made = sweep_part(request, store, {settings.threads, console.monitor()}, part);
       if (ranks().is_worker()) return kDone;
       if (!part.is_all()) return finish_part(made, part, "block", file, console);
     }
-    const Sweep result = run_sweep(request, store, settings, console);
+    Sweep result = run_sweep(request, store, settings, console);
+    if (!ranks().is_alone()) {
+      result.kept = kept;
+      result.wall_seconds += made.wall_seconds;
+    }
     write_study(sweep_document(result), sweep_json(result), settings.results, console);
     write_tables(result, settings.results.folder, console);
     console.note(fmt::format("{} in {} s{}", counted(result.ride_count(), "ride"),

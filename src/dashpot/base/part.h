@@ -19,6 +19,7 @@ struct PartReport {
   std::size_t tasks = 0;  ///< of the part
   std::size_t all = 0;    ///< of the whole work
   std::size_t kept = 0;   ///< of the part: they were there already
+  double wall_seconds = 0;
 };
 
 /// From "3/16". Throws Error(where, ...) on anything else.

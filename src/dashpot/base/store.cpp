@@ -274,7 +274,7 @@ struct Store::Connection {
   StoreFormat format;
   SQLite::Database database;
   std::optional<SQLite::Statement> select, insert;
-  std::size_t dropped = 0;
+  std::size_t dropped = 0, found = 0;
   std::mutex guard;
 };
 
@@ -344,6 +344,7 @@ std::optional<std::string> Store::load(const std::string& key) const {
     std::optional<std::string> bytes;
     if (open.select->executeStep()) bytes = open.select->getColumn(0).getString();
     open.select->reset();
+    open.found += bytes.has_value();
     return bytes;
   });
 }
@@ -406,5 +407,11 @@ std::size_t Store::size() const {
 }
 
 std::size_t Store::dropped() const { return connection_ ? connection_->dropped : 0; }
+
+std::size_t Store::found() const {
+  if (!connection_) return 0;
+  Connection& open = *connection_;
+  return open.run([&] { return open.found; });
+}
 
 }  // namespace dashpot

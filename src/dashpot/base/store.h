@@ -85,6 +85,8 @@ class Store {
 
   std::size_t size() const;     ///< results
   std::size_t dropped() const;  ///< results that were damaged when the file was opened
+  /// Loads so far that have found a result, those of workers among them.
+  std::size_t found() const;
   /// Format and basis: what all of its results depend on.
   const std::string& identity() const { return identity_; }
 

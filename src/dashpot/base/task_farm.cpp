@@ -152,14 +152,19 @@ void work_for_host(int threads, const Store& store, const std::string& work,
 
 }  // namespace
 
-void farm_out(std::span<const std::size_t> numbers, int threads, Store& store,
-              const std::string& work, const std::function<void(std::size_t)>& task) {
+FarmReport farm_out(std::span<const std::size_t> numbers, int threads, Store& store,
+                    const std::string& work, const std::function<void(std::size_t)>& task) {
+  const std::size_t found = store.found();
+  const auto begin = std::chrono::steady_clock::now();
   if (ranks().is_alone())
     parallel_for(numbers.size(), threads, [&](std::size_t k) { task(numbers[k]); });
   else if (ranks().is_worker())
     work_for_host(threads, store, work, task);
   else
     FarmHost(numbers, store, work).run(threads, task);
+  return {.found = store.found() - found,
+          .wall_seconds =
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
 }
 
 }  // namespace dashpot

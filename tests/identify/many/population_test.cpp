@@ -42,13 +42,13 @@ double false_alarm_share(std::size_t dampers, double asked) {
 
 TEST_CASE("population: as many sound dampers are flagged as were asked for, or fewer") {
   // Bonferroni and the larger of two spreads are on the safe side; where few dampers say what is
-  // usual, their spread is uncertain, and Student's distribution allows for it.
+  // usual, their spread is uncertain, and Student's distribution allows for more than that.
   for (const std::size_t dampers : {std::size_t{20}, std::size_t{50}, std::size_t{400}}) {
     const double share = false_alarm_share(dampers, 0.01);
     CAPTURE(dampers);
     CAPTURE(share);
     CHECK(share < 0.012);
-    CHECK(share > 0.002);
+    CHECK(share > (dampers < 50 ? 0.0003 : 0.002));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "dashpot/base/any_number.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/base/task_farm.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
@@ -340,15 +341,19 @@ class ManyRun {
     for (std::size_t k = 0; k < folders_.names.size(); ++k)
       if (part.has(k)) dampers.push_back(k);
     std::atomic<std::size_t> done = 0;
-    farm_out(dampers, options_.fit.threads, store_, names_ + plan_.identity,
-             [&](std::size_t damper) {
-               options_.fit.monitor.check();
-               make_row(damper);
-               options_.fit.monitor.report(
-                   std::to_string(++done) + " of " + std::to_string(dampers.size()) + " dampers",
-                   static_cast<double>(done) / static_cast<double>(dampers.size()));
-             });
-    return {.tasks = dampers.size(), .all = folders_.names.size(), .kept = kept_};
+    const FarmReport farm = farm_out(
+        dampers, options_.fit.threads, store_, names_ + plan_.identity, [&](std::size_t damper) {
+          options_.fit.monitor.check();
+          make_row(damper);
+          options_.fit.monitor.report(
+              std::to_string(++done) + " of " + std::to_string(dampers.size()) + " dampers",
+              static_cast<double>(done) / static_cast<double>(dampers.size()));
+        });
+    if (!ranks().is_alone()) kept_ = farm.found;
+    return {.tasks = dampers.size(),
+            .all = folders_.names.size(),
+            .kept = kept_,
+            .wall_seconds = farm.wall_seconds};
   }
 
   /// All rows as they were kept.

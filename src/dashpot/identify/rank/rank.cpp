@@ -209,10 +209,12 @@ class RankingRun {
       by_number[task.number] = &task;
     }
     std::atomic<std::size_t> done = 0;
-    farm_out(numbers, options_.threads, store_->store(), identity(),
-             [&](std::size_t number) { make(*by_number.at(number), done, tasks.size()); });
+    const FarmReport farm =
+        farm_out(numbers, options_.threads, store_->store(), identity(),
+                 [&](std::size_t number) { make(*by_number.at(number), done, tasks.size()); });
     report.tasks = tasks.size();
-    report.kept = kept_;
+    report.kept = farm.found;
+    report.wall_seconds = farm.wall_seconds;
     return report;
   }
 

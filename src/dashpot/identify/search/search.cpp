@@ -128,10 +128,12 @@ class SearchRun {
     for (std::size_t k = 0; k < all; ++k)
       if (part.has(k)) tasks.push_back(k);
     work_ = static_cast<double>(tasks.size());
-    farm_out(tasks, report_.options.fit.threads, store_->store(), "", [&](std::size_t k) {
-      run_fold(trials[k / folds_.size()], k / folds_.size(), k % folds_.size());
-    });
-    return {.tasks = tasks.size(), .all = all, .kept = report_.kept};
+    const FarmReport farm =
+        farm_out(tasks, report_.options.fit.threads, store_->store(), "", [&](std::size_t k) {
+          run_fold(trials[k / folds_.size()], k / folds_.size(), k % folds_.size());
+        });
+    return {
+        .tasks = tasks.size(), .all = all, .kept = farm.found, .wall_seconds = farm.wall_seconds};
   }
 
  private:

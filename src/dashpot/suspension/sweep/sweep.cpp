@@ -120,10 +120,12 @@ PartReport sweep_part(const SweepRequest& request, SweepStore& store, const Swee
   std::size_t rides = 0;
   for (const std::size_t block : blocks) rides += block_of(there, block).size();
   Tally tally(0, rides, options.monitor);
-  farm_out(blocks, options.threads, store.store(), std::to_string(all), [&](std::size_t block) {
-    ride_block(there, block, rider, store, options, tally, [](const SweepStore::Ride&) {});
-  });
-  return {.tasks = tasks, .all = all, .kept = tasks - blocks.size()};
+  const FarmReport farm =
+      farm_out(blocks, options.threads, store.store(), std::to_string(all), [&](std::size_t block) {
+        ride_block(there, block, rider, store, options, tally, [](const SweepStore::Ride&) {});
+      });
+  return {
+      .tasks = tasks, .all = all, .kept = tasks - blocks.size(), .wall_seconds = farm.wall_seconds};
 }
 
 }  // namespace dashpot
