@@ -109,8 +109,10 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .default_text = "nothing"},
       {.names = "--allow-active",
        .target = &settings.options.allow_active,
-       .help = "keep laws as they fit best, also those that feed energy into some motions; without "
-               "it, such a law is fitted again with parameters that dissipate"},
+       .help =
+           "keep models as they fit best, also those that feed energy into some motions; "
+           "without it, such a law is fitted again with parameters that dissipate, and a bank or "
+           "state space is trained on until it does"},
 
       {.names = "--asymmetric",
        .target = &settings.options.asymmetric,

@@ -21,7 +21,7 @@ namespace dashpot {
 struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<ParameterChoice> choices;  ///< laws only
-  bool allow_active = false;             ///< laws only: keep a fit that feeds energy into motions
+  bool allow_active = false;             ///< keep a fit that feeds energy into motions
   bool asymmetric = false;  ///< laws only: take rebound and compression apart where that pays
   NetworkDesign network;    ///< networks only
   int starts = 4;           ///< of which the best is taken

@@ -124,7 +124,7 @@ def identify(
     of "usual" (None: 2) and "all" (None: no limit) may take, 0: no limit; `Ranking.untried` is what was not tried.
     progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
-    line has them: ["alpha=exponential"]), allow_active (keep laws that feed energy in), asymmetric (take rebound and
+    line has them: ["alpha=exponential"]), allow_active (keep models that feed energy in), asymmetric (take rebound and
     compression of laws apart where it pays), start_from (model files of laws: their numbers are the first start),
     starts, search, seed, threads (0: all cores).
 

@@ -15,11 +15,13 @@ using Eigen::VectorXd;
 constexpr Index kGramBlock = 256;  // samples of which a Gram matrix is made at a time
 
 /// The problem linearised at one point: the Gram matrix of [J r], (n + 1) x (n + 1) and divided by
-/// the number of samples, with the records' best offsets taken out of it, and these offsets.
+/// the number of samples, with the records' best offsets taken out of it, and these offsets; and
+/// with the prices.
 struct System {
   MatrixXd gram;
   std::vector<double> offsets;
   double offset_penalty = 0;  ///< of the offsets, per sample; part of squares()
+  double price = 0;           ///< part of squares(), too
 
   double squares() const { return gram(gram.rows() - 1, gram.cols() - 1); }
 };
@@ -31,6 +33,7 @@ class GramSink final : public RowSink {
   GramSink(Index columns, const FreeRunSearchOptions& options)
       : options_(options),
         gram_(MatrixXd::Zero(columns, columns)),
+        prices_(MatrixXd::Zero(columns, columns)),
         block_(columns, kGramBlock),
         sums_(VectorXd::Zero(columns)) {}
 
@@ -56,9 +59,16 @@ class GramSink final : public RowSink {
     sums_.setZero();
   }
 
+  void add_price(const std::vector<double>& row) override {
+    prices_.selfadjointView<Eigen::Lower>().rankUpdate(VectorXd::Map(row.data(), prices_.rows()));
+    is_priced_ = true;
+    system_.price += row.back() * row.back();
+  }
+
   System system() {
     system_.gram = gram_.selfadjointView<Eigen::Lower>();
     system_.gram /= count_;
+    if (is_priced_) system_.gram += MatrixXd(prices_.selfadjointView<Eigen::Lower>());
     system_.offset_penalty /= count_;
     return std::move(system_);
   }
@@ -74,8 +84,9 @@ class GramSink final : public RowSink {
   }
 
   const FreeRunSearchOptions& options_;
-  MatrixXd gram_, block_;
+  MatrixXd gram_, prices_, block_;
   VectorXd sums_;
+  bool is_priced_ = false;
   Index filled_ = 0;
   double n_ = 0, count_ = 0;  ///< samples of this record, of all before
   System system_;
@@ -173,7 +184,8 @@ FreeRunSearchResult search(const FreeRunProblem& problem, const FreeRunSearchOpt
   result.half_gradient.assign(gradient.begin(), gradient.end());
   result.offsets = search.system().offsets;
   result.cost = search.cost();
-  result.rms = std::sqrt(std::max(0.0, search.system().squares() - search.system().offset_penalty));
+  result.rms = std::sqrt(std::max(
+      0.0, search.system().squares() - search.system().offset_penalty - search.system().price));
   return result;
 }
 

@@ -14,6 +14,10 @@ namespace dashpot {
 ///   (1 / samples) sum over s of (r_s + o_k)^2
 ///     + sum over i of decay_i (x_i - anchor_i)^2
 ///     + (1 / samples) sum over k of offset_decay (samples of k) o_k^2
+///     + sum over p of r_p^2
+///
+/// The last sum is over prices, terms that belong to no sample: what a model costs beside its
+/// errors.
 ///
 /// The offsets o_k, one per record, are linear and are eliminated exactly: the columns of [J r] are
 /// centred per record (not quite wholly, by offset_decay), so that no offset is an unknown. Only
@@ -28,6 +32,9 @@ class RowSink {
   virtual double* row() = 0;
   /// The samples since the last call belong to one record and share its offset.
   virtual void end_record() = 0;
+  /// A price: n + 1 numbers as a row, whose square is one more term of the cost, whatever the
+  /// number of samples; without an offset.
+  virtual void add_price(const std::vector<double>& row) = 0;
 };
 
 /// The problem. `start`, `decay` and `anchors` have one number per unknown. All weights of

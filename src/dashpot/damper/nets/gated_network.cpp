@@ -50,18 +50,15 @@ void GatedNetwork::fill_gates(const double* u, double* c) const noexcept {
 
 double GatedNetwork::evaluate(const double* raw) const noexcept {
   std::array<double, kMaxSignals> linear, held;
-  for (std::size_t k = 0; k < signals.size(); ++k) {
-    linear[k] = (raw[k] - signals[k].mean) / signals[k].scale;
-    held[k] = std::clamp(linear[k], signals[k].low, signals[k].high);
-  }
+  standardise(raw, linear.data());
+  hold(linear.data(), held.data());
   return output_scale * sum(linear.data(), held.data());
 }
 
 double GatedNetwork::evaluate_held(const double* raw) const noexcept {
-  std::array<double, kMaxSignals> held;
-  for (std::size_t k = 0; k < signals.size(); ++k)
-    held[k] =
-        std::clamp((raw[k] - signals[k].mean) / signals[k].scale, signals[k].low, signals[k].high);
+  std::array<double, kMaxSignals> linear, held;
+  standardise(raw, linear.data());
+  hold(linear.data(), held.data());
   return output_scale * sum(held.data(), held.data());
 }
 
@@ -87,10 +84,10 @@ double GatedNetwork::sum(const double* linear, const double* held) const noexcep
   return sum;
 }
 
-double GatedNetwork::differentiate(const double* z, double* by_parameters,
+double GatedNetwork::differentiate(const double* linear, const double* held, double* by_parameters,
                                    double* by_signals) const noexcept {
   const std::size_t count = signals.size(), first_current = motions(), width = gate_count();
-  const double* u = z + first_current;
+  const double* u = held + first_current;
 
   std::array<double, kMaxGates> c, by_c{};
   fill_gates(u, c.data());
@@ -112,16 +109,17 @@ double GatedNetwork::differentiate(const double* z, double* by_parameters,
   };
 
   add(1);
-  for (std::size_t k = 0; k < first_current; ++k) by_signals[k] += add(z[k]);
+  for (std::size_t k = 0; k < first_current; ++k) by_signals[k] += add(linear[k]);
 
-  // Neurons: on through tanh to their weights and to the signals.
+  // Neurons: on through tanh to their weights and to the signals, but for those at the end of their
+  // range.
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end;
        w += neuron_stride()) {
-    const double t = branchless_tanh(std::inner_product(w, w + count, z, w[count]));
+    const double t = branchless_tanh(std::inner_product(w, w + count, held, w[count]));
     const double delta = add(t) * (1 - t * t);
     for (std::size_t k = 0; k < count; ++k) {
-      *by_parameters++ = delta * z[k];
-      by_signals[k] += delta * w[k];
+      *by_parameters++ = delta * held[k];
+      if (held[k] == linear[k]) by_signals[k] += delta * w[k];
     }
     *by_parameters++ = delta;
   }
@@ -135,6 +133,8 @@ double GatedNetwork::differentiate(const double* z, double* by_parameters,
       by_signals[first_current + n] += *by_product * u[m];
     }
   }
+  for (std::size_t k = first_current; k < count; ++k)
+    if (held[k] != linear[k]) by_signals[k] = 0;
   return sum;
 }
 

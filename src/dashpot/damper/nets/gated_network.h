@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,16 @@ struct GatedNetwork {
   /// Throws Error(where, ...) when the parts do not fit together or to that many signals.
   void require_sound(std::size_t signal_count, const std::string& where) const;
 
+  /// (raw - mean) / scale of every signal, none held; and held within the ranges.
+  void standardise(const double* raw, double* linear) const noexcept {
+    for (std::size_t k = 0; k < signals.size(); ++k)
+      linear[k] = (raw[k] - signals[k].mean) / signals[k].scale;
+  }
+  void hold(const double* linear, double* held) const noexcept {
+    for (std::size_t k = 0; k < signals.size(); ++k)
+      held[k] = std::clamp(linear[k], signals[k].low, signals[k].high);
+  }
+
   /// Output at raw signals, in raw units. Allocates nothing.
   double evaluate(const double* raw) const noexcept;
   /// The same with the motions among t held, too.
@@ -56,10 +67,18 @@ struct GatedNetwork {
   double output(const double* standardised) const noexcept {
     return sum(standardised, standardised);
   }
+  /// The same as evaluate() has it, where neurons and gates see signals that are held.
+  double output(const double* linear, const double* held) const noexcept {
+    return sum(linear, held);
+  }
   /// The same and its derivatives: by `neurons`, then `gates`, parameter_count() numbers, and by
   /// the signals, signals.size() numbers. Both are overwritten. Allocates nothing.
-  double differentiate(const double* standardised, double* by_parameters,
+  double differentiate(const double* linear, const double* held, double* by_parameters,
                        double* by_signals) const noexcept;
+  double differentiate(const double* standardised, double* by_parameters,
+                       double* by_signals) const noexcept {
+    return differentiate(standardised, standardised, by_parameters, by_signals);
+  }
 
   /// Neurons from the seed, gates 0. The signals must be set.
   void initialise(std::size_t hidden, std::uint64_t seed);

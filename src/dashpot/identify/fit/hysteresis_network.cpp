@@ -6,9 +6,9 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/hysteresis_network/train_hysteresis_network.h"
 #include "dashpot/error.h"
+#include "dashpot/identify/fit/dissipating.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/free_run_records.h"
-#include "dashpot/identify/fit/member_report.h"
 #include "dashpot/identify/fit/starting_bank.h"
 #include "dashpot/identify/fit/trials.h"
 
@@ -19,6 +19,7 @@ constexpr std::size_t kBankSamples = 8000;       // of a fit, every k-th; the st
 constexpr std::size_t kBankTrialSamples = 2500;  // of a trial of a decay
 constexpr int kBankIterations = 60,
               kBankTrialIterations = 25;  // stopping early, too, keeps weights small
+constexpr int kBankPaidIterations = 20;   // of a training that pays for energy fed in
 constexpr std::array kBankDecays{1e-3, 1e-4, 1e-5};
 
 using Records = std::vector<const FreeRunRecord*>;
@@ -100,6 +101,15 @@ class HysteresisNetworkFit {
     return members;
   }
 
+  /// Trains a member on while it pays for energy that it feeds in.
+  void train_on(Member& member, const ActivityPrice& price) const {
+    HysteresisNetworkTrainOptions options =
+        train_options(all_, kBankSamples, {decay_, std::min(kBankPaidIterations, iterations_)});
+    options.rate_decay = kPaidRateDecay;
+    options.price = &price;
+    member.report = train(member.network, all_, options);
+  }
+
  private:
   /// The weight decay with which trials predict best what was held back from them.
   double best_decay(const Trials& trials) const {
@@ -120,18 +130,21 @@ class HysteresisNetworkFit {
     std::uint64_t start = 0;
     bool is_watched = false;  ///< how its error falls is reported; of several at once only one is
   };
+  HysteresisNetworkTrainOptions train_options(const Records& records, std::size_t most_samples,
+                                              Effort effort) const {
+    return {.max_iterations = effort.iterations,
+            .weight_decay = effort.decay,
+            .offsets = options_.offset == OffsetMode::Record,
+            .stride = (scored_samples(records) + most_samples - 1) / most_samples,
+            .on_iteration = [this, effort](double cost) {
+              effort.is_watched ? options_.monitor.report_cost(cost) : options_.monitor.check();
+            }};
+  }
+
   Member fit(const Records& records, std::size_t most_samples, Effort effort) const {
-    const HysteresisNetworkTrainOptions options{
-        .max_iterations = effort.iterations,
-        .weight_decay = effort.decay,
-        .offsets = options_.offset == OffsetMode::Record,
-        .stride = (scored_samples(records) + most_samples - 1) / most_samples,
-        .on_iteration = [this, effort](double cost) {
-          effort.is_watched ? options_.monitor.report_cost(cost) : options_.monitor.check();
-        }};
     Member member{start_, {}};
     member.network.network.initialise(hidden_, options_.seed + effort.start);
-    member.report = train(member.network, records, options);
+    member.report = train(member.network, records, train_options(records, most_samples, effort));
     return member;
   }
 
@@ -149,14 +162,17 @@ class HysteresisNetworkFit {
 FitReport fit_hysteresis_network(const HysteresisNetworkPreset& preset,
                                  const std::vector<Record>& training, DriveUnit drive_unit,
                                  const IdentifyOptions& options) {
-  const std::vector<HysteresisNetworkFit::Member> members =
-      HysteresisNetworkFit(preset, training, drive_unit, options).members();
-  FitReport report = report_of_members(members);
-  std::vector<HysteresisNetwork> networks;
-  for (const HysteresisNetworkFit::Member& member : members) networks.push_back(member.network);
-  report.model =
-      std::make_shared<HysteresisNetworkModel>(std::string(preset.name), std::move(networks));
-  return report;
+  using Member = HysteresisNetworkFit::Member;
+  const HysteresisNetworkFit fit(preset, training, drive_unit, options);
+  return report_of_dissipating(
+      fit.members(), training, drive_unit, options,
+      [&](const std::vector<Member>& members) {
+        std::vector<HysteresisNetwork> networks;
+        for (const Member& member : members) networks.push_back(member.network);
+        return std::make_shared<HysteresisNetworkModel>(std::string(preset.name),
+                                                        std::move(networks));
+      },
+      [&](Member& member, const ActivityPrice& price) { fit.train_on(member, price); });
 }
 
 }  // namespace dashpot

@@ -6,9 +6,9 @@
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/train_state_space.h"
 #include "dashpot/error.h"
+#include "dashpot/identify/fit/dissipating.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/free_run_records.h"
-#include "dashpot/identify/fit/member_report.h"
 #include "dashpot/identify/fit/trials.h"
 
 namespace dashpot {
@@ -19,6 +19,7 @@ constexpr std::size_t kWindow = 400;              // samples of a window
 constexpr std::size_t kWindowStride = 2;          // of its samples, scored
 constexpr std::size_t kWindowSteps = 12000, kTrialSteps = 5000;
 constexpr int kWindowIterations = 25, kStateSpaceTrialIterations = 12, kFinishIterations = 30;
+constexpr int kStateSpacePaidIterations = 20;  // of a training that pays for energy fed in
 // Iterations that end a lone trial: a short one prefers small weights, so a lone one is made in
 // full.
 constexpr int kTrialFinish = 10;
@@ -124,6 +125,14 @@ class StateSpaceFit {
     return members;
   }
 
+  /// Trains a member on while it pays for energy that it feeds in.
+  void train_on(Member& member, const ActivityPrice& price) const {
+    StateSpaceTrainOptions options = finish(decay_, kStateSpacePaidIterations);
+    options.rate_decay = kPaidRateDecay;
+    options.price = &price;
+    member.report = train(member.network, all_, options);
+  }
+
  private:
   struct Effort {
     double decay;
@@ -184,13 +193,16 @@ class StateSpaceFit {
 
 FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Record>& training,
                           DriveUnit drive_unit, const IdentifyOptions& options) {
-  const std::vector<StateSpaceFit::Member> members =
-      StateSpaceFit(preset, training, drive_unit, options).members();
-  FitReport report = report_of_members(members);
-  std::vector<StateSpaceNetwork> networks;
-  for (const StateSpaceFit::Member& member : members) networks.push_back(member.network);
-  report.model = std::make_shared<StateSpaceModel>(std::string(preset.name), std::move(networks));
-  return report;
+  using Member = StateSpaceFit::Member;
+  const StateSpaceFit fit(preset, training, drive_unit, options);
+  return report_of_dissipating(
+      fit.members(), training, drive_unit, options,
+      [&](const std::vector<Member>& members) {
+        std::vector<StateSpaceNetwork> networks;
+        for (const Member& member : members) networks.push_back(member.network);
+        return std::make_shared<StateSpaceModel>(std::string(preset.name), std::move(networks));
+      },
+      [&](Member& member, const ActivityPrice& price) { fit.train_on(member, price); });
 }
 
 }  // namespace dashpot

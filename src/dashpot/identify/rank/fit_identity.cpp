@@ -58,7 +58,7 @@ NamedTexts describe_options(const IdentifyOptions& identify_options) {
   NamedTexts texts{
       {"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},
       {"parameter choices", text_of(choices)},
-      {"laws that feed energy in", allow_active ? "kept" : "refitted"},
+      {"models that feed energy in", allow_active ? "kept" : "refitted"},
       {"rebound and compression", asymmetric ? "apart where it pays" : "alike"},
       {"network", format_design(network)},
       {"starts", std::to_string(starts)},

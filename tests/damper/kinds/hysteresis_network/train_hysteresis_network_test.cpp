@@ -19,12 +19,8 @@ HysteresisNetwork start() {
   return model;
 }
 
-}  // namespace
-
-TEST_CASE("the gradient is that of the cost, rates, offsets and decays included") {
+void check_gradient(const HysteresisNetworkTrainOptions& options, double tolerance = 1e-6) {
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
-  const HysteresisNetworkTrainOptions options{
-      .weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2};
   const HysteresisNetwork model = start();
   const FreeRunCost at = hysteresis_network_cost(model, all_of(records), options);
   // Moves of rates are measured from the model that a training starts from, so their price has no
@@ -44,15 +40,31 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
                   rates[k] *= std::exp(by);
                   m.bank.set_rates(rates);
                 }),
-                1e-6, 1e-8);
+                tolerance, 1e-8);
   for (std::size_t i = 0; i < model.network.neurons.size(); ++i)
     CHECK_CLOSE(2 * at.gradient[k++],
-                slope([&](HysteresisNetwork& m, double by) { m.network.neurons[i] += by; }), 1e-6,
-                1e-8);
+                slope([&](HysteresisNetwork& m, double by) { m.network.neurons[i] += by; }),
+                tolerance, 1e-8);
   for (std::size_t i = 0; i < model.network.gates.size(); ++i)
     CHECK_CLOSE(2 * at.gradient[k++],
-                slope([&](HysteresisNetwork& m, double by) { m.network.gates[i] += by; }), 1e-6,
-                1e-8);
+                slope([&](HysteresisNetwork& m, double by) { m.network.gates[i] += by; }),
+                tolerance, 1e-8);
+}
+
+}  // namespace
+
+TEST_CASE("the gradient is that of the cost, rates, offsets and decays included") {
+  check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
+}
+
+TEST_CASE("the gradient is that of the cost with the price of energy that is fed in") {
+  const ActivityPrice price({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, 0.5);
+  const HysteresisNetworkTrainOptions free{.weight_decay = 0.01},
+      paid{.weight_decay = 0.01, .price = &price};
+  const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
+  CHECK(hysteresis_network_cost(start(), all_of(records), paid).cost >
+        1.1 * hysteresis_network_cost(start(), all_of(records), free).cost);
+  check_gradient(paid, 1e-4);  // shares have kinks
 }
 
 TEST_CASE(

@@ -21,7 +21,7 @@ StateSpaceNetwork start() {
   return model;
 }
 
-void check_gradient(const StateSpaceTrainOptions& options) {
+void check_gradient(const StateSpaceTrainOptions& options, double tolerance = 1e-6) {
   const std::vector<FreeRunRecord> records = measured(90);
   const StateSpaceNetwork model = example_state_space(4);
   const std::size_t count = state_space_cost(model, all_of(records), options).gradient.size();
@@ -39,7 +39,7 @@ void check_gradient(const StateSpaceTrainOptions& options) {
       return state_space_cost(model, all_of(records), options, x).cost;
     };
     CAPTURE(k);
-    CHECK_CLOSE(2 * cost.gradient[k], (moved(1e-5) - moved(-1e-5)) / 2e-5, 1e-6, 1e-7);
+    CHECK_CLOSE(2 * cost.gradient[k], (moved(1e-5) - moved(-1e-5)) / 2e-5, tolerance, 1e-7);
   }
 }
 
@@ -51,6 +51,14 @@ TEST_CASE("the gradient is that of the cost over whole records, rest included") 
 
 TEST_CASE("the gradient is that of the cost over windows, encoder included") {
   check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .window = 30});
+}
+
+TEST_CASE("the gradient is that of the cost with the price of energy that is fed in") {
+  const ActivityPrice price({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, 0.5);
+  const std::vector<FreeRunRecord> records = measured(90);
+  CHECK(state_space_cost(example_state_space(4), all_of(records), {.price = &price}).cost >
+        1.1 * state_space_cost(example_state_space(4), all_of(records), {}).cost);
+  check_gradient({.weight_decay = 0.01, .price = &price}, 1e-4);  // shares have kinks
 }
 
 TEST_CASE("windows, then whole records: a state space predicts motions it has not seen") {

@@ -47,14 +47,16 @@ void set_unknowns(HysteresisNetwork& model, const std::vector<double>& x) {
   for (double& weight : model.network.gates) weight = *at++;
 }
 
-/// One sample: derivatives of the output by the unknowns, then the residual.
+/// One sample: derivatives of the output by the unknowns, then the residual. While a network learns
+/// nothing is held.
 void fill(const HysteresisNetwork& model, const std::vector<double>& raw,
-          const std::vector<double>& slopes, double force, double* row) {
+          const std::vector<double>& slopes, double force, bool holds, double* row) {
   const GatedNetwork& network = model.network;
-  std::array<double, GatedNetwork::kMaxSignals> z, by_signals;
-  for (std::size_t k = 0; k < raw.size(); ++k)
-    z[k] = (raw[k] - network.signals[k].mean) / network.signals[k].scale;
-  const double output = network.differentiate(z.data(), row + slopes.size(), by_signals.data());
+  std::array<double, GatedNetwork::kMaxSignals> z, held, by_signals;
+  network.standardise(raw.data(), z.data());
+  if (holds) network.hold(z.data(), held.data());
+  const double output = network.differentiate(z.data(), holds ? held.data() : z.data(),
+                                              row + slopes.size(), by_signals.data());
   const std::size_t first_lag = model.bank.path_rates.size();
   const std::size_t end_lag = first_lag + model.bank.velocity_rates.size();
   for (std::size_t k = 0; k < slopes.size(); ++k) {
@@ -70,10 +72,35 @@ void linearise(const HysteresisNetwork& model, const std::vector<const FreeRunRe
     run_bank(
         model.bank, *record, stride, true,
         [&](std::size_t k, const std::vector<double>& signals, const std::vector<double>& slopes) {
-          fill(model, signals, slopes, record->force[k], sink.row());
+          fill(model, signals, slopes, record->force[k], false, sink.row());
         });
     sink.end_record();
   }
+}
+
+/// Adds what the model pays for the energy that it feeds into motions, its signals held within the
+/// ranges that it starts with.
+void add_prices(const HysteresisNetwork& model, const ActivityPrice& price, RowSink& sink) {
+  std::array<double, GatedNetwork::kMaxSignals> z, held;
+  std::vector<double> row(model.parameter_count() + 1);
+  price.add(
+      model.parameter_count(), sink,
+      [&](const FreeRunRecord& record, auto use) {
+        run_bank(model.bank, record, 1, false,
+                 [&](std::size_t, const std::vector<double>& signals, const std::vector<double>&) {
+                   model.network.standardise(signals.data(), z.data());
+                   model.network.hold(z.data(), held.data());
+                   use(model.network.output(z.data(), held.data()));
+                 });
+      },
+      [&](const FreeRunRecord& record, auto use) {
+        run_bank(model.bank, record, 1, true,
+                 [&](std::size_t, const std::vector<double>& signals,
+                     const std::vector<double>& slopes) {
+                   fill(model, signals, slopes, 0, true, row.data());
+                   use(row.data());
+                 });
+      });
 }
 
 void find_ranges(HysteresisNetwork& found, const std::vector<const FreeRunRecord*>& records) {
@@ -109,6 +136,7 @@ FreeRunSearchResult run_search(HysteresisNetwork model,
   problem.linearise = [&](const std::vector<double>& x, RowSink& sink) {
     set_unknowns(model, x);
     linearise(model, records, options.stride, sink);
+    if (options.price) add_prices(model, *options.price, sink);
   };
   return search(problem, {.max_iterations = max_iterations,
                           .tolerance = options.tolerance,

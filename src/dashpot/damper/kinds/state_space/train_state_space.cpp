@@ -154,16 +154,18 @@ void set_unknowns(StateSpaceNetwork& model, const std::vector<double>& x) {
   for (double& weight : model.network.gates) weight = *at++;
 }
 
-/// One sample: derivatives of the output by the unknowns, then the residual.
+/// One sample: derivatives of the output by the unknowns, then the residual. While a network learns
+/// nothing is held.
 void fill(const StateSpaceNetwork& model, const std::vector<double>& raw,
-          StateSpaceCell::Slopes& slopes, double force, double* row) {
+          StateSpaceCell::Slopes& slopes, double force, bool holds, double* row) {
   const StateSpaceCell& cell = model.cell;
   const GatedNetwork& network = model.network;
   const std::size_t columns = slopes.columns, n = cell.motions();
-  std::array<double, GatedNetwork::kMaxSignals> z, by_signals;
-  for (std::size_t k = 0; k < raw.size(); ++k)
-    z[k] = (raw[k] - network.signals[k].mean) / network.signals[k].scale;
-  const double output = network.differentiate(z.data(), row + columns, by_signals.data());
+  std::array<double, GatedNetwork::kMaxSignals> z, held, by_signals;
+  network.standardise(raw.data(), z.data());
+  if (holds) network.hold(z.data(), held.data());
+  const double output = network.differentiate(z.data(), holds ? held.data() : z.data(),
+                                              row + columns, by_signals.data());
 
   // Derivatives by what moves the states, through the signals that the network reads.
   std::fill_n(row, columns, 0.0);
@@ -185,10 +187,37 @@ void linearise(const StateSpaceNetwork& model, const double* encoder, std::size_
     StateSpaceCell::Slopes slopes(model.cell, encoder_weights);
     run_cell(model.cell, encoder, windows[w], stride, &slopes,
              [&](std::size_t k, const std::vector<double>& signals) {
-               fill(model, signals, slopes, record->force[k], sink.row());
+               fill(model, signals, slopes, record->force[k], false, sink.row());
              });
     if (w + 1 == windows.size() || windows[w + 1].record != record) sink.end_record();
   }
+}
+
+/// Adds what the model pays for the energy that it feeds into motions, each from rest, its signals
+/// held within the ranges that it starts with.
+void add_prices(const StateSpaceNetwork& model, std::size_t encoder_weights,
+                const ActivityPrice& price, RowSink& sink) {
+  std::array<double, GatedNetwork::kMaxSignals> z, held;
+  const std::size_t unknowns = model.parameter_count() + encoder_weights;
+  std::vector<double> row(unknowns + 1);
+  price.add(
+      unknowns, sink,
+      [&](const FreeRunRecord& record, auto use) {
+        run_cell(model.cell, nullptr, whole(record), 1, nullptr,
+                 [&](std::size_t, const std::vector<double>& signals) {
+                   model.network.standardise(signals.data(), z.data());
+                   model.network.hold(z.data(), held.data());
+                   use(model.network.output(z.data(), held.data()));
+                 });
+      },
+      [&](const FreeRunRecord& record, auto use) {
+        StateSpaceCell::Slopes slopes(model.cell, encoder_weights);
+        run_cell(model.cell, nullptr, whole(record), 1, &slopes,
+                 [&](std::size_t, const std::vector<double>& signals) {
+                   fill(model, signals, slopes, 0, true, row.data());
+                   use(row.data());
+                 });
+      });
 }
 
 /// Nothing is held while it learns; ranges are those of the records, found afterwards.
@@ -232,6 +261,7 @@ void find_ranges(StateSpaceNetwork& model, const Records& records) {
 FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
                                const StateSpaceTrainOptions& options, int max_iterations,
                                const std::vector<double>& unknowns) {
+  StateSpaceNetwork holding = model;
   open_ranges(model);
   const std::vector<Window> windows = Windows(model, options).of(records);
   const std::size_t encoder_weights = model.cell.motions() * windows.front().features.size();
@@ -251,6 +281,9 @@ FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
     set_unknowns(model, x);
     linearise(model, x.data() + model.cell.parameter_count(), encoder_weights, windows,
               options.stride, sink);
+    if (!options.price) return;
+    set_unknowns(holding, x);
+    add_prices(holding, encoder_weights, *options.price, sink);
   };
   return search(problem, {.max_iterations = max_iterations,
                           .tolerance = options.tolerance,
