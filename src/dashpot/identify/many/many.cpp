@@ -437,8 +437,8 @@ class ManyRun {
     for (const double error : plan.usual_errors) text += format_exact(error) + '\n';
     for (const ForcePoint& point : plan.points)
       text += format_exact(point.drive) + ' ' + format_exact(point.speed) + '\n';
-    constexpr std::size_t kDigits = 16;
-    plan.identity = sha256(text).substr(0, kDigits);
+    constexpr std::size_t kHexDigits = 16;
+    plan.identity = sha256(text).substr(0, kHexDigits);
     return plan;
   }
 
