@@ -292,7 +292,7 @@ PhysicsCalibration calibrate_physics(const DamperDescription& drawing, const Dat
   };
   LeastSquaresOptions options;
   options.difference_step = 1e-5;
-  options.on_iteration = [&](int iteration, double) {
+  options.on_iteration = [&](int iteration, double, std::span<const double>) {
     monitor.report("calibrate", static_cast<double>(iteration) / options.max_iterations);
   };
   const LeastSquaresReport solved = solve(squares, start, options);
