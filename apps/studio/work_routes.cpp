@@ -118,7 +118,7 @@ Value requests_json() {
 
 Value fluids_json() {
   Value list = Value::array();
-  for (const Fluid& fluid : fluids()) list.push_back(fluid.name);
+  for (const std::string& name : fluid_names()) list.push_back(name);
   return list;
 }
 
