@@ -2,6 +2,7 @@
 
 #include "dashpot/base/date.h"
 #include "dashpot/base/escape.h"
+#include "dashpot/export/js/js.h"
 #include "dashpot/identify/judge/traces.h"
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/report_json.h"
@@ -78,7 +79,14 @@ Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_
 }
 
 std::string report_text(const dashpot_ranking& of, const std::string& format) {
-  const ReportInput input{of.dataset, of.ranking, of.command, dashpot_version(), of.date};
+  const ReportInput input{.dataset = of.dataset,
+                          .ranking = of.ranking,
+                          .command = of.command,
+                          .version = dashpot_version(),
+                          .date = of.date,
+                          .program = [](const ModelFile& file) {
+                            return js_program(exported_model(file), {.version = dashpot_version()});
+                          }};
 
   // Forms for programs.
   if (format == "json") return json_text(json_report(input));

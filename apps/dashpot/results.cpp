@@ -7,10 +7,10 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/export/js/js.h"
 #include "dashpot/report/parameter_files.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
-#include "report_sliders.h"
 #include "traces.h"
 
 namespace dashpot::cli {
@@ -74,7 +74,10 @@ ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const C
           .ranking = ranking,
           .command = console.command_line(),
           .version = DASHPOT_VERSION,
-          .date = date_now()};
+          .date = date_now(),
+          .program = [](const ModelFile& file) {
+            return js_program(exported_model(file), {.version = DASHPOT_VERSION});
+          }};
 }
 
 void print_results(const Document& report, const Ranking& ranking, Console& console) {
@@ -104,8 +107,7 @@ void write_results(const ReportInput& input, const Document& report, const Resul
   std::string where = "\n";
   if (settings.report) {
     console.check_stop();
-    where +=
-        write_document(with_sliders(report, input), folder, "report", false, csv_report(input));
+    where += write_document(report, folder, "report", false, csv_report(input));
   }
   where += "Models   " + (folder / "models").string() + "/\n";
   if (settings.figures) {

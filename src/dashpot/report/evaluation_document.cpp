@@ -73,8 +73,11 @@ Document evaluation_document(const ReportInput& input) {
   const RankedModel& model = input.ranking.models.front();
   const Evaluation& evaluation = model.left_out;
 
-  // On a page, a ranking of one model; its tables are too wide for what is asked here as text.
-  Document document = ranking_document(input);
+  // On a page, a ranking of one model; its tables are too wide for what is asked here as text. It
+  // has no sliders: how far the model's own data reach is not known here.
+  ReportInput still = input;
+  still.program = nullptr;
+  Document document = ranking_document(still);
   for (DocumentSection& section : document.sections)
     section.audience =
         reaches(section.audience, Audience::Page) ? Audience::Page : Audience::Markdown;

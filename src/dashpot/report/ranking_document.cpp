@@ -9,6 +9,7 @@
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/residual_section.h"
+#include "dashpot/report/slider_section.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -260,6 +261,8 @@ Document ranking_document(const ReportInput& input) {
     for (DocumentSection& section : interval_sections(ranking))
       document.sections.push_back(std::move(section));
     document.sections.push_back(closer_section(input, document.samples, display));
+    if (std::optional<DocumentSection> sliders = slider_section(input))
+      document.sections.push_back(std::move(*sliders));
     document.sections.push_back({.name = "overview",
                                  .title = "Across all records",
                                  .paragraphs = {},

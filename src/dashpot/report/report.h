@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct ReportInput {
   std::string command;  ///< the command line that prints all its figures again
   std::string version;
   std::string date;  ///< ISO 8601
+  /// A model as a program that a page runs (export/js/js.h); null: the page has no sliders.
+  std::function<JsText(const ModelFile&)> program = {};
 };
 
 /// The ranking, one model on one record in full, all records, what was fitted and how it was

@@ -1,13 +1,10 @@
-#include "report_sliders.h"
-
-#include <algorithm>
+#include "dashpot/report/slider_section.h"
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/export/js/js.h"
 #include "dashpot/report/words.h"
 
-namespace dashpot::cli {
+namespace dashpot {
 namespace {
 
 /// Bytes of one program, and of all in a page: beside them it has 0.2 MB and its samples.
@@ -15,7 +12,8 @@ constexpr std::size_t kMostProgram = 200'000, kMostPrograms = 1'000'000;
 
 }  // namespace
 
-Document with_sliders(Document report, const ReportInput& input) {
+std::optional<DocumentSection> slider_section(const ReportInput& input) {
+  if (!input.program) return std::nullopt;
   DocumentSliders sliders;
   std::vector<std::string> left_out;
   std::size_t size = 0;
@@ -27,8 +25,7 @@ Document with_sliders(Document report, const ReportInput& input) {
 
     // A report is worth more than its sliders: what has no program is left out in words.
     try {
-      const ModelFile file = to_model_file(ranked, input.dataset, input.command);
-      JsText program = js_program(exported_model(file), {.version = input.version});
+      JsText program = input.program(to_model_file(ranked, input.dataset, input.command));
       const std::size_t bytes = program.text().size();
       if (bytes > kMostProgram || size + bytes > kMostPrograms) {
         leave_out("too large; 'dashpot export MODEL --to js' writes it");
@@ -40,9 +37,8 @@ Document with_sliders(Document report, const ReportInput& input) {
       leave_out(error.what());
     }
   }
-  if (sliders.models.empty()) return report;
+  if (sliders.models.empty()) return std::nullopt;
 
-  // Where the reader has just looked at the models over the records.
   DocumentSection section{
       .name = "sliders",
       .title = "Beyond the records",
@@ -54,9 +50,7 @@ Document with_sliders(Document report, const ReportInput& input) {
       .audience = Audience::Page};
   if (!left_out.empty())
     section.remarks = {"Not at work in this page: " + join(left_out, ", ") + "."};
-  const auto after = std::ranges::find(report.sections, "closer", &DocumentSection::name);
-  report.sections.insert(after == report.sections.end() ? after : after + 1, std::move(section));
-  return report;
+  return section;
 }
 
-}  // namespace dashpot::cli
+}  // namespace dashpot
