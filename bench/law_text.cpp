@@ -84,6 +84,8 @@ int main(int argc, char** argv) {
   std::printf("| free run, ns a sample | own | from a file | ratio |\n|---|---|---|---|\n");
   print_runs("`bouc_wen`, closed form", example(find_law("bouc_wen")), example(bouc_wen));
   print_runs("`bouc_wen`, Runge-Kutta", example(by_steps), example(mine_by_steps->law()));
+  print_runs("`bouc_wen`, closed form beside steps of a file", example(find_law("bouc_wen")),
+             example(mine_by_steps->law()));
   print_runs("`tanh_acceleration`, a filter", example(find_law("tanh_acceleration")),
              example(filter));
   print_runs("`tanh_kwok`, no state", example(find_law("tanh_kwok")), example(tanh));

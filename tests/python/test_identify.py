@@ -70,6 +70,15 @@ class RecordingsInMemory(unittest.TestCase):
 
 
 class Identification(InFolder):
+    def test_a_law_from_a_file(self):
+        law = PROJECT / "examples" / "laws" / "my_tanh.yaml"
+        ranking = dashpot.identify(bench(), models=[str(law), "tanh_kwok"], leave_out="blocks=3")
+        errors = ranking.report["models"]
+        self.assertEqual({model["name"] for model in errors}, {"my_tanh", "tanh_kwok"})
+        self.assertEqual(errors[0]["left_out"], errors[1]["left_out"])
+        with self.assertRaisesRegex(dashpot.Error, "is neither a model nor the file of a law"):
+            dashpot.identify(bench(), models=["my_tanh.txt"])
+
     def test_budget(self):
         ranking = dashpot.identify(bench(), budget=1e-6, starts=1)
         self.assertEqual(len(ranking), 1)

@@ -84,6 +84,8 @@ const Law& find_law(std::string_view name, const std::string& where) {
   throw_unknown_model(name, where, known);
 }
 
+bool is_own_law(std::string_view name) { return own_law(name) != nullptr; }
+
 bool is_law(std::string_view name) { return law_named(name) != nullptr; }
 
 const Law& know_law(const std::filesystem::path& file) {

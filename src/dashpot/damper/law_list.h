@@ -17,6 +17,8 @@ std::span<const Law* const> laws();
 /// which says what is known.
 const Law& find_law(std::string_view name, const std::string& where = {});
 
+/// Whether Dashpot itself has a law of that name, which no law from a file may take.
+bool is_own_law(std::string_view name);
 /// Whether find_law() knows it.
 bool is_law(std::string_view name);
 

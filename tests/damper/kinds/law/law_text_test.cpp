@@ -378,6 +378,9 @@ TEST_CASE("a model file holds the law, and works where the law's file is not kno
   other.replace(other.find("two_states"), 10, "two_stated");
   CHECK(contains(message_of([&] { parse_model(other, "m.json"); }),
                  "is 'two_stated', but 'two_states' in its definition"));
+  std::string taken = written;
+  for (int k = 0; k < 2; ++k) taken.replace(taken.find("two_states"), 10, "bingham");
+  CHECK(contains(message_of([&] { parse_model(taken, "m.json"); }), "defines 'bingham' anew"));
   std::string broken = written;
   broken.replace(broken.find("r*(v - v_f)"), 11, "system(v_f)");
   CHECK(contains(message_of([&] { parse_model(broken, "m.json"); }), "unknown function 'system'"));

@@ -71,6 +71,9 @@ std::unique_ptr<LawModel> law_model_from_json(const Value& value) {
   if (text && text->law().name != name.as_string())
     throw Error(name.where(), "is '" + name.as_string() + "', but '" +
                                   std::string(text->law().name) + "' in its definition");
+  if (text && is_own_law(name.as_string()))
+    throw Error(definition->where(), "defines '" + name.as_string() + "' anew",
+                "a law of Dashpot's own stands without a definition");
   const Law& own = text ? text->law() : find_law(name.as_string(), name.where());
 
   // A law with rebound and compression apart is told by its rows.
