@@ -29,6 +29,7 @@ constexpr std::string_view kCharacteriseExample =
     "    --report sheet.html";
 
 int run_characterise(const CharacteriseSettings& settings, Console& console) {
+  require_page(settings.report);
   const CharacteriseOptions options{parse_speeds(settings.speeds)};
   const Dataset dataset = load_recordings(settings.data, console);
   const Characterisation figures = characterise(dataset, options);
@@ -44,7 +45,7 @@ int run_characterise(const CharacteriseSettings& settings, Console& console) {
     console.print("\nCycles  " + settings.csv + '\n');
   }
   if (!settings.report.empty()) {
-    write_file(settings.report, html_document(document));
+    write_page(document, settings.report);
     console.print("\nReport  " + settings.report + '\n');
   }
 
@@ -71,17 +72,18 @@ Command characterise_command() {
       .example = std::string(kCharacteriseExample),
       .run = [settings](Console& console) { return run_characterise(*settings, console); }};
 
-  append(command.options, {speeds_option(settings->speeds),
-                           {.names = "--csv",
-                            .target = &settings->csv,
-                            .help = "also write every cycle with all its figures, in SI",
-                            .value = "FILE",
-                            .takes = Takes::File},
-                           {.names = "--report",
-                            .target = &settings->report,
-                            .help = "also write a page with the loops",
-                            .value = "FILE",
-                            .takes = Takes::File}});
+  append(command.options,
+         {speeds_option(settings->speeds),
+          {.names = "--csv",
+           .target = &settings->csv,
+           .help = "also write every cycle with all its figures, in SI",
+           .value = "FILE",
+           .takes = Takes::File},
+          {.names = "--report",
+           .target = &settings->report,
+           .help = "also write a page with the loops, printed where FILE ends in .pdf",
+           .value = "FILE",
+           .takes = Takes::File}});
   return command;
 }
 

@@ -76,6 +76,7 @@ std::vector<ComparedThing> gather(const CompareSettings& settings, Console& cons
 }
 
 int run_compare(const CompareSettings& settings, Console& console) {
+  require_page(settings.report);
   if (settings.things.size() < 2)
     throw UsageError("compare", "one thing cannot be compared",
                      "two or more model files and recordings: dashpot compare before/ after/");
@@ -94,7 +95,7 @@ int run_compare(const CompareSettings& settings, Console& console) {
 
   if (console.json) console.print_json(document_json(document));
   if (!settings.report.empty()) {
-    write_file(settings.report, html_document(document));
+    write_page(document, settings.report);
     console.print("\nReport  " + settings.report + '\n');
   }
   return kDone;
@@ -104,35 +105,37 @@ int run_compare(const CompareSettings& settings, Console& console) {
 
 Command compare_command() {
   auto settings = std::make_shared<CompareSettings>();
-  return {.name = "compare",
-          .title = "Lay models and recordings over each other",
-          .description =
-              "Compares the first of the things named with each of the others: forces at the same "
-              "speeds and drives, knee, friction, yield and gas force, each difference beside its "
-              "noise. Models are run over the first recordings, or, where there are none, over "
-              "sines within their data. Warns where a recording taught a model.",
-          .options = {{.names = "THINGS",
-                       .target = &settings->things,
-                       .help = "two or more: model files, and recordings (files, folders or "
-                               "dataset files)",
-                       .takes = Takes::File,
-                       .required = true},
-                      speeds_option(settings->speeds),
-                      {.names = "--velocity-cutoff",
-                       .target = &settings->cutoff_hz,
-                       .help = "cut-off frequency of the zero-phase filter that velocity is "
-                               "derived with",
-                       .value = "HZ",
-                       .minimum = 0,
-                       .default_text = "from the motion, and stated"},
-                      {.names = "--report",
-                       .target = &settings->report,
-                       .help = "also write a page with the curves laid over each other",
-                       .value = "FILE",
-                       .takes = Takes::File},
-                      threads_option(settings->threads)},
-          .example = std::string(kCompareExample),
-          .run = [settings](Console& console) { return run_compare(*settings, console); }};
+  return {
+      .name = "compare",
+      .title = "Lay models and recordings over each other",
+      .description =
+          "Compares the first of the things named with each of the others: forces at the same "
+          "speeds and drives, knee, friction, yield and gas force, each difference beside its "
+          "noise. Models are run over the first recordings, or, where there are none, over "
+          "sines within their data. Warns where a recording taught a model.",
+      .options = {{.names = "THINGS",
+                   .target = &settings->things,
+                   .help = "two or more: model files, and recordings (files, folders or "
+                           "dataset files)",
+                   .takes = Takes::File,
+                   .required = true},
+                  speeds_option(settings->speeds),
+                  {.names = "--velocity-cutoff",
+                   .target = &settings->cutoff_hz,
+                   .help = "cut-off frequency of the zero-phase filter that velocity is "
+                           "derived with",
+                   .value = "HZ",
+                   .minimum = 0,
+                   .default_text = "from the motion, and stated"},
+                  {.names = "--report",
+                   .target = &settings->report,
+                   .help = "also write a page with the curves laid over each other, printed where "
+                           "FILE ends in .pdf",
+                   .value = "FILE",
+                   .takes = Takes::File},
+                  threads_option(settings->threads)},
+      .example = std::string(kCompareExample),
+      .run = [settings](Console& console) { return run_compare(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -1,12 +1,28 @@
 #include "document_text.h"
 
 #include "dashpot/base/file.h"
+#include "dashpot/report/printed_page.h"
 
 namespace dashpot::cli {
 
 void print_document(const Document& document, Console& console) {
   console.print(document_text(document, console.width(),
                               [&](std::string_view text) { return console.bold(text); }));
+}
+
+namespace {
+
+bool is_pdf(const std::string& path) { return path.ends_with(".pdf"); }
+
+}  // namespace
+
+void require_page(const std::string& path) {
+  if (is_pdf(path)) require_browser();
+}
+
+void write_page(const Document& document, const std::string& path) {
+  const std::string page = html_document(document);
+  write_file(path, is_pdf(path) ? pdf_of_page(page) : page);
 }
 
 std::string write_document(const Document& document, const std::filesystem::path& folder,

@@ -10,6 +10,11 @@ namespace dashpot::cli {
 /// The verdict of a document and its tables, on the terminal; figures are left to the page.
 void print_document(const Document& document, Console& console);
 
+/// Throws Error where `path` is a PDF and no browser is there that prints it; before long work.
+void require_page(const std::string& path);
+/// The document as a page, or as that page printed where the path ends in .pdf.
+void write_page(const Document& document, const std::string& path);
+
 /// Writes the document into the folder as <name>.html, <name>.json and <name>.md; with `figures`,
 /// its figures for print too, into the folder's figures/; `csv`: the text of <name>.csv, where
 /// there is one. Returns the lines that say where all of it is.

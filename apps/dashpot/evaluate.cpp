@@ -6,7 +6,6 @@
 
 #include "commands.h"
 #include "console.h"
-#include "dashpot/base/file.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
@@ -60,6 +59,7 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
 }
 
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
+  require_page(settings.report);
   ModelFile file = load_model(settings.model);
   if (const auto* family = model_as<FamilyModel>(*file.model);
       family && settings.outside_family == "refuse")
@@ -99,7 +99,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     console.warn(what + ": it extrapolates there");
   if (console.json) console.print_json(document_json(document));
   if (!settings.report.empty()) {
-    write_file(settings.report, html_document(document));
+    write_page(document, settings.report);
     console.print("\nReport  " + settings.report + '\n');
   }
   if (!settings.traces.empty()) {
@@ -152,7 +152,7 @@ Command evaluate_command() {
 
        {.names = "--report",
         .target = &settings->report,
-        .help = "also write a report page",
+        .help = "also write a report page, printed where FILE ends in .pdf",
         .value = "FILE",
         .takes = Takes::File},
        traces_option(settings->traces),

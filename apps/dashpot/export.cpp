@@ -1,6 +1,8 @@
 #include "dashpot/export.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +15,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/export/c/c_inverse.h"
+#include "dashpot/export/tables/force_map.h"
 #include "export_control.h"
 
 namespace dashpot::cli {
@@ -23,6 +26,7 @@ struct ExportSettings {
   VehicleChoice vehicle;
   std::vector<std::string> formats;
   std::string name, precision, sample_time, folder = "dashpot-export", compiler;
+  std::string velocities, currents;
   bool sources_only = false;
 };
 
@@ -38,6 +42,10 @@ constexpr std::string_view kExportExample =
     "\n"
     "# A published damper, under a name of your own:\n"
     "dashpot export --parameters spencer1997 --to c --name front_damper -o front\n"
+    "\n"
+    "# Tables on a grid of your own, for a multibody program and for a spreadsheet:\n"
+    "dashpot export --parameters spencer1997 --to tables,carsim,dpr --velocities=-200:50:200 "
+    "--currents 0,1,2\n"
     "\n"
     "# A controller for an ECU with the sensors of a car, from accelerometer to current:\n"
     "dashpot export --controller mix1,crossover=1.9Hz --in-car --to c --precision float "
@@ -85,6 +93,8 @@ void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
 std::vector<ExportedFile> damper_files(const ExportSettings& settings, const ExportOptions& options,
                                        Console& console) {
   const ModelFile file = load_damper_file(settings.damper, "export", console);
+  if (const std::string note = extrapolation_note(exported_model(file), options); !note.empty())
+    console.warn("the table is " + note);
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     add(find_exporter(format, "--to").write(exported_model(file), options), files);
@@ -143,10 +153,54 @@ std::vector<ExportedFile> exported_files(const ExportSettings& settings,
   return files;
 }
 
+/// "0,100,250" or "-500:50:500" as ascending numbers, each times `scale`.
+std::vector<double> grid_of(const std::string& text, const std::string& option, double scale) {
+  constexpr std::size_t kMost = 1000;
+  constexpr int kDigits = 12;  // steps add up to what people read
+  const auto wrong = [&](const std::string& what) {
+    return UsageError(option, what, "numbers as 0,50,100, or low:step:high as 0:50:500");
+  };
+  std::vector<double> grid;
+  if (text.empty()) return grid;
+  const bool is_range = text.find(':') != std::string::npos;
+  for (const std::string& word : split(text, is_range ? ':' : ',')) {
+    const std::optional<double> number = parse_number(trim(word));
+    if (!number || !std::isfinite(*number)) throw wrong("'" + word + "' is not a number");
+    grid.push_back(*number);
+  }
+
+  // A range becomes its steps.
+  if (is_range) {
+    if (grid.size() != 3 || grid[1] <= 0 || grid[2] < grid[0]) throw wrong("is '" + text + "'");
+    const double low = grid[0], step = grid[1], steps = std::floor((grid[2] - low) / step + 1e-9);
+    if (!(steps < kMost)) throw wrong("has more than " + std::to_string(kMost) + " steps");
+    grid.clear();
+    for (double k = 0; k <= steps; ++k) grid.push_back(low + k * step);
+  }
+  if (grid.size() > kMost) throw wrong("has more than " + std::to_string(kMost) + " numbers");
+  for (double& value : grid) value = *parse_number(format_number(scale * value, kDigits));
+  std::ranges::sort(grid);
+  if (std::ranges::adjacent_find(grid) != grid.end()) throw wrong("holds a number twice");
+  return grid;
+}
+
+/// The grid is of tables alone.
+void require_tables(const ExportSettings& settings) {
+  constexpr std::array kTables{"carsim", "dpr", "tables"};
+  for (const auto& [option, text] : {std::pair{"--velocities", &settings.velocities},
+                                     std::pair{"--currents", &settings.currents}})
+    if (!text->empty() && std::ranges::none_of(settings.formats, [&](const std::string& format) {
+          return std::ranges::find(kTables, format) != kTables.end();
+        }))
+      throw UsageError(option, "is the grid of tables", "with --to tables, carsim or dpr");
+}
+
 int run_export(const ExportSettings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+
+  require_tables(settings);
 
   // The words of the command line as the exporters take them.
   const ExportOptions options{
@@ -157,6 +211,8 @@ int run_export(const ExportSettings& settings, Console& console) {
                          : parse_quantity(settings.sample_time, "s", "--sample-time"),
       .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
       .sources_only = settings.sources_only,
+      .velocities = grid_of(settings.velocities, "--velocities", 1e-3),
+      .currents = grid_of(settings.currents, "--currents", 1),
       .command = console.command_line(),
       .version = DASHPOT_VERSION};
 
@@ -203,6 +259,19 @@ Command export_command() {
                     .help = "time between two steps, as 1ms",
                     .value = "S",
                     .default_text = "that of the model's data, or 1 ms"},
+
+                   // The grid of tables.
+                   {.names = "--velocities",
+                    .target = &settings->velocities,
+                    .help = "velocities of tables: a list, or low:step:high; those beyond the "
+                            "model's data are marked as extrapolated",
+                    .value = "MM/S,...",
+                    .default_text = "31 over the model's data"},
+                   {.names = "--currents",
+                    .target = &settings->currents,
+                    .help = "currents (or voltages) of tables, likewise",
+                    .value = "A,...",
+                    .default_text = "11 over the model's data"},
 
                    // The binary of an FMU.
                    {.names = "--compiler",

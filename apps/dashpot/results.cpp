@@ -40,6 +40,9 @@ std::vector<Option> result_options(ResultSettings& settings) {
       {.names = "--figures",
        .target = &settings.figures,
        .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"},
+      {.names = "--pdf",
+       .target = &settings.pdf,
+       .help = "also print the report as report.pdf (needs chromium)"},
       {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
 }
 
@@ -89,6 +92,7 @@ void print_results(const Document& report, const Ranking& ranking, Console& cons
 
 void prepare_results(const ResultSettings& settings) {
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+  if (settings.pdf) require_page("report.pdf");
   const fs::path models = fs::path(settings.folder) / "models";
   make_folder(models);
   for (const fs::path& folder : {fs::path(settings.folder), models})
@@ -108,6 +112,12 @@ void write_results(const ReportInput& input, const Document& report, const Resul
   if (settings.report) {
     console.check_stop();
     where += write_document(report, folder, "report", false, csv_report(input));
+  }
+  if (settings.pdf) {
+    console.check_stop();
+    const std::string printed = (folder / "report.pdf").string();
+    write_page(report, printed);
+    where += "Printed  " + printed + '\n';
   }
   where += "Models   " + (folder / "models").string() + "/\n";
   if (settings.figures) {

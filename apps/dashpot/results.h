@@ -17,6 +17,7 @@ namespace dashpot::cli {
 struct ResultSettings {
   std::string folder = "dashpot-results";
   bool report = true;
+  bool pdf = false;
   bool figures = false;
 };
 

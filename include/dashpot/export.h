@@ -41,7 +41,9 @@ struct ExportOptions {
   bool settable_parameters = false;  ///< a law's parameters stand behind its state, not in its code
   std::string compiler = "cc";       ///< for an FMU: a C compiler, and arguments for it
   bool sources_only = false;         ///< for an FMU: without a binary
-  std::string command, version;      ///< of Dashpot, as the files name them
+  /// The grid of tables, m/s and A or V, ascending; empty: over the model's domain.
+  std::vector<double> velocities = {}, currents = {};
+  std::string command, version;  ///< of Dashpot, as the files name them
 };
 
 struct ExportedFile {

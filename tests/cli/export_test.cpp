@@ -1,5 +1,6 @@
 #include "cli/program.h"
 #include "damper/inverse/example_network.h"
+#include "dashpot/base/file.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "support.h"
 
@@ -98,10 +99,10 @@ TEST_CASE("export says what is wrong") {
     CHECK(contains(result.output, of));
   };
   const std::string damper = "--parameters spencer1997 ";
-  complains(
-      damper,
-      "--to: is missing; one or more of c, dpr, fmu2, fmu3, js, mex, modelica, onnx, sfunction, "
-      "tables");
+  complains(damper,
+            "--to: is missing; one or more of c, carsim, dpr, fmu2, fmu3, js, mex, modelica, onnx, "
+            "sfunction, "
+            "tables");
   complains("--to c", "needs one damper");
   complains(damper + "--to d", "unknown format 'd'");
   complains(damper + "--to c --name 2x", "cannot begin names in C");
@@ -110,4 +111,24 @@ TEST_CASE("export says what is wrong") {
   complains(damper + "--to onnx --sample-time=soon", "--sample-time");
   complains(damper + "--to onnx --precision half", "half");
   complains(damper + "--to onnx -o /proc/none", "/proc/none");
+}
+
+TEST_CASE("export --velocities: a grid in mm/s, a warning beyond the data, and wrong ones") {
+  const TemporaryFolder folder;
+  const std::string asked = "export --parameters spencer1997 --name d -o " + folder.path().string();
+  const ProgramResult made =
+      run_dashpot(asked + " --to tables,carsim --velocities=-600:300:600 --currents 0,1");
+  CHECK(made.exit_code == 0);
+  CHECK(contains(made.output, "the table is extrapolated beyond -500 ... 500 mm/s"));
+  CHECK(contains(dashpot::read_file(folder.path() / "d_force.csv"), ",0,1\n-0.6,"));
+  for (const auto& [options, words] :
+       {std::pair{" --to tables --velocities 100,x", "'x' is not a number"},
+        std::pair{" --to tables --velocities 0:0:100", "low:step:high"},
+        std::pair{" --to tables --currents 1,1", "holds a number twice"},
+        std::pair{" --to c --velocities 100", "is the grid of tables"}}) {
+    const ProgramResult wrong = run_dashpot(asked + options);
+    CAPTURE(wrong.output);
+    CHECK(wrong.exit_code == 2);
+    CHECK(contains(wrong.output, words));
+  }
 }

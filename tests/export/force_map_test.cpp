@@ -56,6 +56,37 @@ TEST_CASE("force map: a hysteresis settles to its plateau") {
               values[law.index_of("kappa_w")] + values[law.index_of("f0")], 1e-9, 0);
 }
 
+TEST_CASE("tables on a grid of the user's: what lies beyond the data says so") {
+  const LawModel model = viscous();
+  const ExportOptions options{.name = "m", .velocities = {-0.2, 0, 0.5}, .currents = {0, 0.84, 3}};
+  const ForceMap map = force_map(exported(model), 1e-3, options.velocities, options.currents);
+  CHECK(map.extrapolated == std::vector<double>{0, 0, 1, 0, 0, 1, 1, 1, 1});
+  CHECK_CLOSE(map.at(2, 2), (1000 + 500 * 3) * 0.5 + 20, 1e-12, 0);
+
+  // In the heads of every layout; not where the grid stays within.
+  const std::string note = "extrapolated beyond -300 ... 300 mm/s and 0 ... 2 A";
+  const auto files = write_tables(exported(model), options);
+  CHECK(files[0].content.starts_with("force[N]: velocity[m/s] \\ current[A]; " + note +
+                                     ",0,0.84,3\n-0.2,"));
+  CHECK(files[2].content.find("extrapolated") != std::string::npos);
+  CHECK(write_dpr(exported(model), options)[1].content.find("$ " + note) != std::string::npos);
+  CHECK(extrapolation_note(exported(model), {.velocities = {0.3}, .currents = {2}}).empty());
+
+  // Compression is positive there, and rises.
+  const std::string carsim = write_carsim(exported(model), options)[0].content;
+  CHECK(carsim.starts_with("compression rate [mm/s]; " + note +
+                           ",force [N] at 0 A,force [N] at 0.84 A,force [N] at 3 A\n-500,"));
+  CHECK(carsim.find("\n200," + format_exact(-map.at(0, 0)) + ",") != std::string::npos);
+}
+
+TEST_CASE("tables: heads are numbers that people read") {
+  const LawModel model = viscous();
+  ExportedModel wide = exported(model);
+  wide.domain.current_max = 2.8;
+  for (const double current : force_map(wide, 1e-3).current)
+    CHECK(format_exact(current).size() <= 4);
+}
+
 TEST_CASE("tables and dpr: what is written is what was computed") {
   const LawModel model = viscous();
   const ForceMap map = force_map(exported(model), 1e-3);

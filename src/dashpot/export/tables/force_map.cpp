@@ -37,10 +37,22 @@ double settled_force(const ExportedModel& model, double velocity, double current
   return force;
 }
 
+/// The nearest number of 12 digits: a table's heads are read by people.
+double readable(double value) {
+  constexpr int kDigits = 12;
+  return *parse_number(format_number(value, kDigits));
+}
+
 std::vector<double> evenly(double low, double high, int count) {
   std::vector<double> values;
-  for (int k = 0; k < count; ++k) values.push_back(low + (high - low) * k / (count - 1));
+  for (int k = 0; k < count; ++k) values.push_back(readable(low + (high - low) * k / (count - 1)));
   return values;
+}
+
+/// Within the domain but for rounding.
+bool is_within(double value, double low, double high) {
+  const double slack = 1e-9 * std::max(std::abs(low), std::abs(high));
+  return value >= low - slack && value <= high + slack;
 }
 
 /// The current at which the row of forces first has the force, straight between currents; the
@@ -63,19 +75,42 @@ double current_for(const ForceMap& map, std::size_t v, double force) {
 
 }  // namespace
 
-ForceMap force_map(const ExportedModel& model, double sample_time) {
-  ForceMap map;
+ForceMap force_map(const ExportedModel& model, double sample_time,
+                   const std::vector<double>& velocities, const std::vector<double>& currents) {
+  // The user's grid, or one over the domain.
+  ForceMap map{.velocity = velocities, .current = currents, .force = {}, .extrapolated = {}};
   const Domain& d = model.domain;
-  for (int k = -kHalf; k <= kHalf; ++k) {
+  for (int k = -kHalf; k <= kHalf && velocities.empty(); ++k) {
     const double share = static_cast<double>(k * k) / (kHalf * kHalf);
-    map.velocity.push_back(share * (k < 0 ? d.velocity_min : d.velocity_max));
+    map.velocity.push_back(readable(share * (k < 0 ? d.velocity_min : d.velocity_max)));
   }
-  map.current = d.current_max > d.current_min ? evenly(d.current_min, d.current_max, kCurrents)
-                                              : std::vector{d.current_min};
+  if (currents.empty())
+    map.current = d.current_max > d.current_min ? evenly(d.current_min, d.current_max, kCurrents)
+                                                : std::vector{d.current_min};
+
   for (const double velocity : map.velocity)
-    for (const double current : map.current)
+    for (const double current : map.current) {
       map.force.push_back(settled_force(model, velocity, current, sample_time));
+      map.extrapolated.push_back(is_within(velocity, d.velocity_min, d.velocity_max) &&
+                                         is_within(current, d.current_min, d.current_max)
+                                     ? 0
+                                     : 1);
+    }
   return map;
+}
+
+std::string extrapolation_note(const ExportedModel& model, const ExportOptions& options) {
+  const Domain& d = model.domain;
+  const auto leaves = [](const std::vector<double>& grid, double low, double high) {
+    return std::ranges::any_of(grid, [&](double value) { return !is_within(value, low, high); });
+  };
+  if (!leaves(options.velocities, d.velocity_min, d.velocity_max) &&
+      !leaves(options.currents, d.current_min, d.current_max))
+    return {};
+  constexpr double kMilli = 1000;
+  return "extrapolated beyond " + format_number(kMilli * d.velocity_min) + " ... " +
+         format_number(kMilli * d.velocity_max) + " mm/s and " + format_number(d.current_min) +
+         " ... " + format_number(d.current_max) + ' ' + unit_of(model.drive_unit);
 }
 
 CurrentMap inverse_of(const ForceMap& map) {
