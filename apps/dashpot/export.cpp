@@ -12,7 +12,9 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/export/c/c_inverse.h"
+#include "dashpot/export/c/c_model.h"
 #include "export_control.h"
 
 namespace dashpot::cli {
@@ -23,7 +25,7 @@ struct ExportSettings {
   VehicleChoice vehicle;
   std::vector<std::string> formats;
   std::string name, precision, sample_time, folder = "dashpot-export", compiler;
-  bool sources_only = false;
+  bool sources_only = false, tunable = false;
 };
 
 constexpr std::string_view kExportExample =
@@ -85,6 +87,17 @@ void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
 std::vector<ExportedFile> damper_files(const ExportSettings& settings, const ExportOptions& options,
                                        Console& console) {
   const ModelFile file = load_damper_file(settings.damper, "export", console);
+  const bool settable = has_settable(*file.model);
+  if (settings.tunable && !settable)
+    throw Error(settings.damper.model, "its code is of one damper: nothing in it can be set",
+                "a law, or family_physics");
+
+  // A family's code is of one damper, whose numbers an FMU may still set.
+  const auto* family = model_as<FamilyModel>(*file.model);
+  const bool all_fmus = std::ranges::all_of(
+      settings.formats, [](const std::string& format) { return format.starts_with("fmu"); });
+  if (family && !settings.tunable && !(settable && all_fmus))
+    console.note("the code is of one damper of the family: " + describe(family->member()));
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     add(find_exporter(format, "--to").write(exported_model(file), options), files);
@@ -137,16 +150,26 @@ std::vector<ExportedFile> exported_files(const ExportSettings& settings,
                                          const ExportOptions& options, Console& console) {
   const CBlockMaker block = chosen_block(settings, options, console);
   if (!block) return damper_files(settings, options, console);
+  if (settings.tunable) throw UsageError("--tunable", "is of a damper's model", "leave it out");
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     add(find_exporter(format, "--to").write_block(block, options), files);
   return files;
 }
 
+void require_tunable_formats(const ExportSettings& settings) {
+  if (!settings.tunable) return;
+  for (const std::string& format : settings.formats)
+    if (format != "c" && !format.starts_with("fmu"))
+      throw UsageError("--tunable", "does not go with " + format,
+                       "--to c; an FMU has its parameters tunable by itself");
+}
+
 int run_export(const ExportSettings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+  require_tunable_formats(settings);
 
   // The words of the command line as the exporters take them.
   const ExportOptions options{
@@ -155,6 +178,7 @@ int run_export(const ExportSettings& settings, Console& console) {
       .sample_time = settings.sample_time.empty()
                          ? 0
                          : parse_quantity(settings.sample_time, "s", "--sample-time"),
+      .settable_parameters = settings.tunable,
       .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
       .sources_only = settings.sources_only,
       .command = console.command_line(),
@@ -203,6 +227,12 @@ Command export_command() {
                     .help = "time between two steps, as 1ms",
                     .value = "S",
                     .default_text = "that of the model's data, or 1 ms"},
+
+                   {.names = "--tunable",
+                    .target = &settings->tunable,
+                    .help = "C whose parameters stand behind the state and may be set while it "
+                            "runs: of a law, or of family_physics (gap, lengths, areas, viscosity, "
+                            "yield stress, build); an FMU has them in any case"},
 
                    // The binary of an FMU.
                    {.names = "--compiler",
