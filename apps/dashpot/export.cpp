@@ -14,7 +14,9 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/export/c/c_inverse.h"
+#include "dashpot/export/c/c_model.h"
 #include "dashpot/export/tables/force_map.h"
 #include "export_control.h"
 
@@ -27,7 +29,7 @@ struct ExportSettings {
   std::vector<std::string> formats;
   std::string name, precision, sample_time, folder = "dashpot-export", compiler;
   std::string velocities, currents;
-  bool sources_only = false;
+  bool sources_only = false, tunable = false;
 };
 
 constexpr std::string_view kExportExample =
@@ -95,6 +97,17 @@ std::vector<ExportedFile> damper_files(const ExportSettings& settings, const Exp
   const ModelFile file = load_damper_file(settings.damper, "export", console);
   if (const std::string note = extrapolation_note(exported_model(file), options); !note.empty())
     console.warn("the table is " + note);
+  const bool settable = has_settable(*file.model);
+  if (settings.tunable && !settable)
+    throw Error(settings.damper.model, "its code is of one damper: nothing in it can be set",
+                "a law, or family_physics");
+
+  // A family's code is of one damper, whose numbers an FMU may still set.
+  const auto* family = model_as<FamilyModel>(*file.model);
+  const bool all_fmus = std::ranges::all_of(
+      settings.formats, [](const std::string& format) { return format.starts_with("fmu"); });
+  if (family && !settings.tunable && !(settable && all_fmus))
+    console.note("the code is of one damper of the family: " + describe(family->member()));
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     add(find_exporter(format, "--to").write(exported_model(file), options), files);
@@ -147,6 +160,7 @@ std::vector<ExportedFile> exported_files(const ExportSettings& settings,
                                          const ExportOptions& options, Console& console) {
   const CBlockMaker block = chosen_block(settings, options, console);
   if (!block) return damper_files(settings, options, console);
+  if (settings.tunable) throw UsageError("--tunable", "is of a damper's model", "leave it out");
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     add(find_exporter(format, "--to").write_block(block, options), files);
@@ -195,10 +209,19 @@ void require_tables(const ExportSettings& settings) {
       throw UsageError(option, "is the grid of tables", "with --to tables, carsim or dpr");
 }
 
+void require_tunable_formats(const ExportSettings& settings) {
+  if (!settings.tunable) return;
+  for (const std::string& format : settings.formats)
+    if (format != "c" && !format.starts_with("fmu"))
+      throw UsageError("--tunable", "does not go with " + format,
+                       "--to c; an FMU has its parameters tunable by itself");
+}
+
 int run_export(const ExportSettings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+  require_tunable_formats(settings);
 
   require_tables(settings);
 
@@ -209,6 +232,7 @@ int run_export(const ExportSettings& settings, Console& console) {
       .sample_time = settings.sample_time.empty()
                          ? 0
                          : parse_quantity(settings.sample_time, "s", "--sample-time"),
+      .settable_parameters = settings.tunable,
       .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
       .sources_only = settings.sources_only,
       .velocities = grid_of(settings.velocities, "--velocities", 1e-3),
@@ -272,6 +296,11 @@ Command export_command() {
                     .help = "currents (or voltages) of tables, likewise",
                     .value = "A,...",
                     .default_text = "11 over the model's data"},
+                   {.names = "--tunable",
+                    .target = &settings->tunable,
+                    .help = "C whose parameters stand behind the state and may be set while it "
+                            "runs: of a law, or of family_physics (gap, lengths, areas, viscosity, "
+                            "yield stress, build); an FMU has them in any case"},
 
                    // The binary of an FMU.
                    {.names = "--compiler",

@@ -95,6 +95,8 @@ inline std::vector<ExampleModel> example_models() {
   add("family_gated", example_family());
   add("family_residual", example_family(FamilyTarget::Residual));
   add("family_network", example_family_network());
+  add("family_physics", example_family_physics());
+  add("family_lag", example_family_lag());
   return models;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/error.h"
 #include "dashpot/export.h"
 #include "dashpot/model_file.h"
@@ -30,6 +31,8 @@ ExportedModel exported_model(const ModelFile& file) {
                                        : "Identified from " + from.dataset + ", " + from.created};
   if (const std::string active = activity(dissipation_of(file), file.drive_unit); !active.empty())
     exported.origin += ". WARNING: " + active;
+  if (const auto* family = model_as<FamilyModel>(*file.model))
+    exported.origin += ". Of its family it is the damper of " + describe(family->member());
   Domain& domain = exported.domain;
   if (!(domain.velocity_min < domain.velocity_max))
     domain = usual_domain(domain.current_min, domain.current_max);

@@ -44,6 +44,10 @@ CModel code_of_law(const DamperModel& model, bool settable) {
   return c_law(required<LawModel>(model), "model", settable);
 }
 
+CModel code_of_family(const DamperModel& model, bool settable) {
+  return c_family(required<FamilyModel>(model), settable);
+}
+
 constexpr std::array kCodes{
     KindCode{ModelKind::Law, code_of_law},
     KindCode{ModelKind::Network, code_of<NetworkModel, c_network>},
@@ -53,10 +57,16 @@ constexpr std::array kCodes{
     KindCode{ModelKind::PassiveNetwork, code_of<PassiveNetworkModel, c_passive_network>},
     KindCode{ModelKind::Fuzzy, code_of<FuzzyModel, c_fuzzy>},
     KindCode{ModelKind::Hybrid, code_of<HybridModel, c_hybrid>},
-    KindCode{ModelKind::Family, code_of<FamilyModel, c_family>},
+    KindCode{ModelKind::Family, code_of_family},
 };
 
 }  // namespace
+
+bool has_settable(const DamperModel& model) {
+  if (model_as<LawModel>(model)) return true;
+  const auto* family = model_as<FamilyModel>(model);
+  return family && !c_parameters(*family).empty();
+}
 
 CModel c_model(const DamperModel& model, bool settable) {
   if (model.kind() == ModelKind::Other) throw_no_code(model);

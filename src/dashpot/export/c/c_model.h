@@ -38,10 +38,15 @@ struct CParameter {
   double lower = -HUGE_VAL, upper = HUGE_VAL;
 };
 std::vector<CParameter> c_parameters(const LawModel& model);
+/// Of a family by physics: the numbers of its member, with ranges as wide as the family and half as
+/// much again; none of another family, whose code is of one damper.
+std::vector<CParameter> c_parameters(const FamilyModel& model);
+/// Whether the model has parameters that can be set at all.
+bool has_settable(const DamperModel& model);
 
 /// Throws Error for a model that no model file has. `settable`: the parameters of a law stand
-/// behind its state, in the order of c_parameters() and then a lag rate also where it is 0;
-/// model_defaults(state) writes them.
+/// behind its state, in the order of c_parameters() and then a lag rate also where it is 0, those
+/// of a family in that order; model_defaults(state) writes them.
 CModel c_model(const DamperModel& model, bool settable = false);
 
 // One per kind, each in the file of its name; `stem` in place of "model" where a law is a part of
@@ -54,7 +59,7 @@ CModel c_state_space(const StateSpaceModel& model);
 CModel c_passive_network(const PassiveNetworkModel& model);
 CModel c_fuzzy(const FuzzyModel& model);
 CModel c_hybrid(const HybridModel& model);
-CModel c_family(const FamilyModel& model);
+CModel c_family(const FamilyModel& model, bool settable = false);
 
 // Parts that several kinds have: C definitions whose names begin with `name`.
 

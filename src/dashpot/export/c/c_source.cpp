@@ -1,9 +1,12 @@
 #include "dashpot/export/c/c_source.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/export/c/c_model.h"
@@ -92,7 +95,7 @@ int main(void) {
     const damper_input input = {kRun[k][0], kRun[k][1], kRun[k][2]};
     double force;
     if (k == 0) {
-      damper_reset(&model, &input);
+@defaults@      damper_reset(&model, &input);
       force = damper_force(&input, model.state);
     } else {
       force = damper_step(&model, &input);
@@ -170,8 +173,8 @@ Facts common_facts(const ExportedModel& model, const ExportOptions& options,
 }
 
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
-  const auto* law = options.settable_parameters ? model_as<LawModel>(model.model) : nullptr;
-  const CModel code = c_model(model.model, law != nullptr);
+  const bool settable = options.settable_parameters && has_settable(model.model);
+  const CModel code = c_model(model.model, settable);
 
   // The facts that a program around the code must know.
   CSource source{
@@ -185,10 +188,12 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
       .states = code.has_derivatives ? states_of(model.model) : std::vector<CSource::Variable>{},
       .sample_time = export_sample_time(model, options),
       .grid = model.model.feedback_step()};
-  if (law) {
-    source.parameters = c_parameters(*law);
+  if (settable) {
+    const auto* law = model_as<LawModel>(model.model);
+    source.parameters =
+        law ? c_parameters(*law) : c_parameters(*model_as<FamilyModel>(model.model));
     source.first_parameter = source.state_size;
-    source.state_size += source.parameters.size() + (law->lag_rate() > 0 ? 0 : 1);
+    source.state_size += source.parameters.size() + (law && law->lag_rate() <= 0 ? 1 : 0);
   }
 
   // The header: what comes from the user is filled in last, so that nothing rewrites it.
@@ -196,17 +201,22 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
     return with_prefix(in_precision(text, options.c_precision()), source.prefix);
   };
   Facts facts = facts_of(model, options, source);
-  source.header = filled(
-      finished(filled(kDamperHeader, facts) + std::string(c_text("damper_api.h")) +
-               (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kCHeaderEnd),
-      {{"what", c_comment(model.origin)}, {"command", c_comment(options.command)}});
+  source.header =
+      filled(finished(filled(kDamperHeader, facts) + std::string(c_text("damper_api.h")) +
+                      (code.has_derivatives ? kDerivatives : "") + (settable ? kDefaults : "") +
+                      kCHeaderEnd),
+             {{"what", c_comment(model.origin)}, {"command", c_comment(options.command)}});
 
   // The source: the model's own functions, then those of the interface, which call them.
   const std::string own = with_texts(code.code);
   require_free_names(source.prefix, own);
-  source.source = finished("#include \"" + source.prefix + ".h\"\n" + kSourceBegin + own +
-                           std::string(c_text("damper_api.c")) + (law ? kDefaultsFunction : "") +
-                           (code.has_derivatives ? kDerivativesFunction : ""));
+  source.source =
+      finished("#include \"" + source.prefix + ".h\"\n" + kSourceBegin + own +
+               std::string(c_text("damper_api.c")) + (settable ? kDefaultsFunction : "") +
+               (code.has_derivatives ? kDerivativesFunction : ""));
+
+  facts.emplace_back("defaults",
+                     CText::own(settable ? "      damper_defaults(model.state);\n" : ""));
 
   // The test: a run with the forces that the library gives.
   facts.emplace_back("rows", CText::own(rows_of(model, source.sample_time)));
@@ -215,7 +225,26 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
 }
 
 std::vector<ExportedFile> write_c_source(const ExportedModel& model, const ExportOptions& options) {
-  const CSource source = c_source(model, options);
+  CSource source = c_source(model, options);
+
+  // Where each parameter that may be set stands.
+  if (!source.parameters.empty()) {
+    std::string places = "\n/* Parameters, as state[...]; they may be set between two steps. */\n";
+    for (std::size_t k = 0; k < source.parameters.size(); ++k) {
+      const CParameter& parameter = source.parameters[k];
+      std::string name = parameter.name;
+      std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
+      places +=
+          "#define DAMPER_PARAMETER_" + name + " " + std::to_string(source.first_parameter + k) +
+          " /* " + parameter.unit + ", " + c_comment(parameter.meaning).text() +
+          (std::isfinite(parameter.lower) && std::isfinite(parameter.upper)
+               ? "; " + format_number(parameter.lower) + " ... " + format_number(parameter.upper)
+               : "") +
+          " */\n";
+    }
+    source.header.insert(source.header.rfind("\n#ifdef __cplusplus\n}"),
+                         with_prefix(places, source.prefix));
+  }
   return {{source.prefix + ".h", source.header},
           {source.prefix + ".c", source.source},
           {source.prefix + "_test.c", source.test}};

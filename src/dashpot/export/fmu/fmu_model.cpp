@@ -141,15 +141,14 @@ Fmu model_fmu(const ExportedModel& model, const ExportOptions& options) {
   const std::size_t size = std::max<std::size_t>(1, source.state_size);
 
   // A law is known by its derivatives, a model without a state by itself: either can be exchanged.
-  Fmu fmu{
-      .name = export_name(model, options),
-      .code = {{"damper.h", source.header}, {"damper.c", source.source}},
-      .interface = "fmu_damper.h",
-      .definitions = "#define FMU_STATE_SIZE " + std::to_string(size) + "\n",
-      .first_parameter = source.first_parameter,
-      .exchanges = source.state_size == 0 || !source.states.empty() || !source.parameters.empty(),
-      .sample_time = source.sample_time,
-      .grid = source.grid};
+  Fmu fmu{.name = export_name(model, options),
+          .code = {{"damper.h", source.header}, {"damper.c", source.source}},
+          .interface = "fmu_damper.h",
+          .definitions = "#define FMU_STATE_SIZE " + std::to_string(size) + "\n",
+          .first_parameter = source.first_parameter,
+          .exchanges = model.model.state_size() == 0 || !source.states.empty(),
+          .sample_time = source.sample_time,
+          .grid = source.grid};
 
   // The variables, in the order in which c/fmu.h numbers them.
   const std::vector<double> sizes = run_along(model.model, fmu, model.domain);

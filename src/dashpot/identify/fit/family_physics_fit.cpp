@@ -432,7 +432,7 @@ std::vector<double> run_family_physics(const FamilyPhysics& physics, const Famil
       element = physics.element(record.member, current);
     }
     if (k > 0)
-      advance_element(element, record.inputs[k - 1].velocity, record.inputs[k].velocity,
+      physics_advance(&element, record.inputs[k - 1].velocity, record.inputs[k].velocity,
                       record.time[k] - record.time[k - 1], state);
     force[k] = state[0] + state[1] + element.offset;
   }

@@ -105,10 +105,11 @@ class CalibrationProblem {
       std::array<double, kPhysicsStates> state{};
       double mean = 0;
       for (std::size_t k = 0; k < record.inputs.size(); ++k) {
-        if (k > 0)
-          advance_element(element(x, record.inputs[k].current), record.inputs[k - 1].velocity,
-                          record.inputs[k].velocity, record.time[k] - record.time[k - 1],
-                          state.data());
+        if (k > 0) {
+          const PhysicsElement now = element(x, record.inputs[k].current);
+          physics_advance(&now, record.inputs[k - 1].velocity, record.inputs[k].velocity,
+                          record.time[k] - record.time[k - 1], state.data());
+        }
         if (k < record.first) continue;
         const std::size_t at = first_[n] + k - record.first;
         r[at] = record.weight * (state[0] + state[1] - record.force[k]);
@@ -140,8 +141,8 @@ class CalibrationProblem {
   }
 
  private:
-  FamilyPhysics::Element element(std::span<const double> x, double current) const {
-    FamilyPhysics::Element e;
+  PhysicsElement element(std::span<const double> x, double current) const {
+    PhysicsElement e{};
     e.seal = std::exp(x[kFriction]);
     e.seal_stiffness = e.seal / std::exp(x[kGive]);
     e.yielding = std::exp(x[kYieldScale]) * per_stress_ * member_.yield.at(current);

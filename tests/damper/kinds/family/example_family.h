@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/family/physics_family.h"
 
 namespace dashpot {
 
@@ -68,6 +69,32 @@ inline FamilyModel example_family_network() {
   family.name = "family_h3x15";
   family.baseline.target = FamilyTarget::YieldForce;
   return {std::make_shared<Family>(family), example_member()};
+}
+
+/// Plate flow with corrections, a build and a coil that lags.
+inline FamilyModel example_family_physics() {
+  FamilyPhysics physics;
+  physics.reference = {2e-4, 3e-5, 1.2e-3, 8e-3, 0.2, 2e4, 0.5, 15, 0.05, 0.02};
+  physics.numbers = FamilyPhysics::priors();
+  physics.numbers[kMemory] = 0.3;
+  physics.numbers[kGapOfYield] = 0.2;
+  physics.numbers[kLengthOfAll] = -0.1;
+  physics.numbers[kFieldGain] = 0.4;
+  physics.numbers[kAsymmetry] = 0.1;
+  physics.deviation = {0.05, -0.1, 0.2, 0.03};
+  Family family = family_of(std::make_shared<PhysicsFamily>(physics));
+  family.name = "family_physics";
+  FamilyMember member = example_member();
+  member.lag_rate = 150;
+  member.build = 0.5;
+  return {std::make_shared<Family>(family), member, 0.25};
+}
+
+/// The gated family with a coil that lags.
+inline FamilyModel example_family_lag() {
+  FamilyMember member = example_member();
+  member.lag_rate = 80;
+  return {std::make_shared<Family>(example_family().family()), member, 0.5};
 }
 
 }  // namespace dashpot

@@ -89,7 +89,10 @@ FamilyMember member_of(const DamperDescription& description, double largest_curr
   constexpr int kPoints = 32;
   std::vector<double> currents;
   for (int k = 0; k <= kPoints; ++k) currents.push_back(largest_current * k / kPoints);
-  return member_of(description, currents);
+  FamilyMember member = member_of(description, currents);
+  if (largest_current > 0)
+    member.lag_rate = 1 / evaluate_physics(description, {.current = largest_current}).time_constant;
+  return member;
 }
 
 FamilyMember member_of(const DamperDescription& description, std::span<const double> currents) {
@@ -108,11 +111,27 @@ FamilyMember member_of(const DamperDescription& description, std::span<const dou
   return member;
 }
 
+std::string describe(const FamilyMember& member) {
+  std::string text;
+  for (const MemberField& field : kFields)
+    if (field.required)
+      text += std::string(field.name) + " " + format_number(member.*field.field) + " " +
+              std::string(field.unit) + ", ";
+  const std::vector<double>& stresses = member.yield.stresses;
+  text += "yield stress " + format_number(stresses.front()) +
+          (stresses.size() > 1 ? " to " + format_number(stresses.back()) : "") + " Pa, build " +
+          format_number(member.build);
+  return member.lag_rate > 0
+             ? text + ", coil lag " + format_number(1e3 / member.lag_rate, 4) + " ms"
+             : text;
+}
+
 Value to_json(const FamilyMember& member) {
   Value value = Value::object();
   for (const MemberField& field : kFields) value.add(std::string(field.name), member.*field.field);
   value.add("yield_currents", Value::array(member.yield.currents));
   value.add("yield_stresses", Value::array(member.yield.stresses));
+  if (member.lag_rate > 0) value.add("lag_rate", member.lag_rate);
   return value;
 }
 
@@ -125,6 +144,9 @@ FamilyMember read_member(const Value& value) {
   }
   member.yield = {reader.required("yield_currents").as_numbers(),
                   reader.required("yield_stresses").as_numbers()};
+  member.lag_rate = reader.number("lag_rate", 0);
+  if (!(member.lag_rate >= 0 && std::isfinite(member.lag_rate)))
+    throw Error(value.where(), "lag_rate is " + format_number(member.lag_rate), "0 or more, 1/s");
   reader.finish();
   require_curve(member.yield, value.where());
   return member;

@@ -26,6 +26,7 @@ struct FamilyMember {
   double viscosity = 0;                  ///< Pa*s
   double spring_stiffness = 0;           ///< N/m
   double build = 0;                      ///< standard deviations from the mean build of this design
+  double lag_rate = 0;  ///< 1/s, at which the coil's current follows its command; 0: at once
   YieldCurve yield;
 };
 
@@ -48,10 +49,14 @@ FamilyMember with_conditions(FamilyMember member, const Conditions& conditions,
 /// member.
 void require_member(const Conditions& conditions, const std::string& where);
 
-/// The member that a drawing, a coil and a fluid make, with its yield stress up to a current, A; or
-/// at these, ascending from 0 on.
+/// The member that a drawing, a coil and a fluid make, with its yield stress up to a current, A,
+/// and the lag of its coil there; or with the yield stress at these, ascending from 0 on, and no
+/// lag.
 FamilyMember member_of(const DamperDescription& description, double largest_current);
 FamilyMember member_of(const DamperDescription& description, std::span<const double> currents);
+
+/// In words: "piston_area 0.00016 m^2, ..., yield stress 0 to 2.265e+04 Pa, build 0".
+std::string describe(const FamilyMember& member);
 
 Value to_json(const FamilyMember& member);
 FamilyMember read_member(const Value& value);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
+#include "dashpot/damper/c_text/lag.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -20,16 +21,28 @@ bool FamilyModel::needs_displacement() const noexcept {
 }
 
 void FamilyModel::rest(const DamperInput& input, std::span<double> state) const noexcept {
-  family_->force->rest(input, state);
+  family_->force->rest(input, state.first(family_->force->state_size()));
+  if (member_.lag_rate > 0) state[family_->force->state_size()] = input.current;
+}
+
+DamperInput FamilyModel::in_coil(const DamperInput& input,
+                                 std::span<const double> state) const noexcept {
+  DamperInput coil = input;
+  if (member_.lag_rate > 0) coil.current = state[family_->force->state_size()];
+  return coil;
 }
 
 void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double dt,
                           std::span<double> state) const noexcept {
-  family_->force->advance(member_, from, to, dt, state);
+  const std::size_t own = family_->force->state_size();
+  const DamperInput before = in_coil(from, state);
+  if (member_.lag_rate > 0 && dt > 0)
+    state[own] = lag_after(state[own], from.current, to.current, member_.lag_rate * dt);
+  family_->force->advance(member_, before, in_coil(to, state), dt, state.first(own));
 }
 
 double FamilyModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
-  return strength_ * nominal_force(input, state) + offset_;
+  return strength_ * nominal_force(in_coil(input, state), state) + offset_;
 }
 
 double FamilyModel::nominal_force(const DamperInput& input,
@@ -43,13 +56,16 @@ bool FamilyModel::is_ensemble() const noexcept {
 
 double FamilyModel::flow(const DamperInput& input, std::span<const double> state,
                          std::span<double> rates) const noexcept {
-  family_->force->flow(input, state, rates);
+  const std::size_t own = family_->force->state_size();
+  family_->force->flow(in_coil(input, state), state.first(own), rates.first(own));
+  if (member_.lag_rate > 0) rates[own] = member_.lag_rate * (input.current - state[own]);
   return force(input, state);
 }
 
 double FamilyModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
-  return std::hypot(family_->build_spread * nominal_force(input, state),
-                    strength_ * family_->force->spread(member_, input));
+  const DamperInput coil = in_coil(input, state);
+  return std::hypot(family_->build_spread * nominal_force(coil, state),
+                    strength_ * family_->force->spread(member_, coil));
 }
 
 std::unique_ptr<DamperModel> FamilyModel::with_offset(double newton) const {

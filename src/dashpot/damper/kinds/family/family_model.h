@@ -41,7 +41,10 @@ class FamilyModel final : public DamperModel {
   std::size_t parameter_count() const noexcept override {
     return family_->force->parameter_count();
   }
-  std::size_t state_size() const noexcept override { return family_->force->state_size(); }
+  /// The states of the family's force, and of a coil that lags its current, A.
+  std::size_t state_size() const noexcept override {
+    return family_->force->state_size() + (member_.lag_rate > 0 ? 1 : 0);
+  }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
@@ -70,7 +73,9 @@ class FamilyModel final : public DamperModel {
   std::unique_ptr<FamilyModel> with_outside(OutsideFamily outside) const;
 
  private:
-  /// N, of the mean build, before the offset.
+  /// The input with the current that flows in the coil.
+  DamperInput in_coil(const DamperInput& input, std::span<const double> state) const noexcept;
+  /// N, of the mean build, before the offset; the input is that of the coil.
   double nominal_force(const DamperInput& input, std::span<const double> state) const noexcept;
 
   std::shared_ptr<const Family> family_;

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dashpot/error.h"
-#include "dashpot/physics/plate_flow.h"
 
 namespace dashpot {
 namespace {
@@ -47,49 +45,6 @@ constexpr std::array<PhysicsNumber, kPhysicsNumbers> kTable{{
     {"fluid_of_yield", "power of the viscosity in the flow, beyond physics", 0, 0, -kWide, kWide,
      true},
 }};
-
-/// A friction or a plate flow: the force it has at a speed, over that speed.
-struct Resistance {
-  double yielding, viscous;  // N, N s/m; a seal has no viscous part
-  double passive = 0;        // N s/m, beside them in the same flow
-  struct Value {
-    double value, slope;  // N s/m, and its derivative by the speed
-  };
-  Value at(double speed) const noexcept {
-    if (!(viscous > 0)) return {yielding / speed, -yielding / (speed * speed)};
-    // The slope of the pressure p follows from its cubic, p^3 - (N + 3/2 Y) p^2 + Y^3 / 2 = 0.
-    const double newtonian = viscous * speed, p = plate_bingham_pressure(newtonian, yielding);
-    const double slope = p / (3 * p - 2 * (newtonian + 1.5 * yielding));
-    return {p / speed + passive, (viscous * slope - p / speed) / speed};
-  }
-};
-
-/// The force f = u R(s) of a resistance that takes the speed u, s^2 = rest + own u^2, where f +
-/// spring u = pull, pull >= 0. The left side grows with u, so that a bracketed Newton step ends.
-double balanced_force(const Resistance& resistance, double pull, double spring, double rest,
-                      double own) noexcept {
-  constexpr int kSteps = 50;
-  constexpr double kTolerance = 1e-9;
-  double low = 0, high = pull / spring;
-  double u = pull / (spring + resistance.at(std::sqrt(rest)).value);
-  if (!(own > 0)) return u * resistance.at(std::sqrt(rest)).value;
-
-  // A resistance that has yielded leaves the rest of the pull to spring and viscous flow.
-  u = std::max(u, (pull - resistance.yielding / std::sqrt(own)) /
-                      (spring + resistance.viscous + resistance.passive));
-  for (int k = 0; k < kSteps; ++k) {
-    const double s = std::sqrt(rest + own * u * u);
-    const Resistance::Value r = resistance.at(s);
-    const double excess = u * r.value + spring * u - pull;
-    (excess > 0 ? high : low) = u;
-    double next = u - excess / (r.value + u * r.slope * own * u / s + spring);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double step = std::abs(next - u);
-    u = next;
-    if (step <= kTolerance * u) break;
-  }
-  return u * resistance.at(std::sqrt(rest + own * u * u)).value;
-}
 
 void require_physics(const FamilyPhysics& physics, const std::string& where) {
   const FamilyPhysics::Reference& r = physics.reference;
@@ -142,78 +97,9 @@ FamilyPhysics::Numbers FamilyPhysics::priors() noexcept {
 
 FamilyPhysics::Element FamilyPhysics::element(const FamilyMember& m,
                                               double current) const noexcept {
-  const Reference& r = reference;
-  const Numbers& n = numbers;
-  const auto log_ratio = [](double a, double b) { return std::log(a / b); };
-
-  // Logarithms over the middle of the family.
-  const double gap = log_ratio(m.gap, r.gap), length = log_ratio(m.pole_length, r.pole_length);
-  const double area = log_ratio(m.piston_area, r.piston_area);
-  const double width = log_ratio(m.gap_area / m.gap, r.gap_area / r.gap);
-  const double fluid = 0.5 * log_ratio(m.viscosity, r.viscosity);
-
-  // What multiplies the whole force, and the flow beside.
-  const double all = std::exp(deviation[0] + n[kGapOfAll] * gap + n[kLengthOfAll] * length +
-                              n[kFluidOfAll] * fluid);
-  const double flow = deviation[1] + n[kGapOfYield] * gap + n[kLengthOfYield] * length +
-                      n[kAreaOfYield] * area + n[kFluidOfYield] * fluid;
-
-  // The field: by the yield stress, and by a share of the current that saturates.
-  const double i = std::min(std::abs(current), 1e6 * r.current);
-  const double field = std::pow(m.yield.at(current) / r.yield_stress, n[kFieldExponent]) *
-                       std::exp(n[kFieldGain] * i / (i + r.current * std::exp(n[kFieldHalf])));
-
-  // Plate flow at the middle of the family, and the power of geometry that the data ask for.
-  const PlateGap middle{r.pole_length, r.gap_area / r.gap, r.gap};
-  const double yielding = r.piston_area * plate_yield_pressure(&middle, r.yield_stress);
-  const double viscous =
-      r.piston_area * plate_newtonian_pressure(&middle, m.viscosity, r.piston_area);
-  const double yield_geometry = length - gap + area;
-  const double viscous_geometry = length + 2 * area - width - 3 * gap;
-
-  Element e;
-  e.seal = all * r.force * std::exp(n[kSealForce]);
-  e.seal_stiffness = e.seal / r.stroke * std::exp(deviation[2] - n[kSealGive]);
-  e.yielding =
-      all * yielding * field * std::exp(n[kYieldShare] + flow + n[kGeometryShare] * yield_geometry);
-  e.viscous =
-      all * viscous * std::exp(n[kViscousShare] + flow + n[kGeometryShare] * viscous_geometry);
-  e.stiffness = all * r.force / r.stroke * std::exp(deviation[2] + n[kStiffness]);
-  e.asymmetry = n[kAsymmetry];
-  e.memory = n[kMemory];
-  e.slow = r.speed * std::exp(n[kOnset]);
-  e.time = 2 * std::numbers::pi * r.stroke / r.speed;
-  e.offset = r.force * deviation[3];
-  return e;
-}
-
-void advance_element(const FamilyPhysics::Element& e, double from, double to, double dt,
-                     double* state) noexcept {
-  if (!(dt > 0)) return;
-  const double kStage = 1 - std::sqrt(0.5);  // of the step: where the first stage stands
-
-  // The remembered square of the speed, its drive taken at its mean over the step.
-  const double keep = std::exp(-dt / e.time), before = state[2];
-  state[2] = before * keep + (from * from + from * to + to * to) / 3 * (1 - keep);
-  const double floor = e.slow * e.slow;
-  const double first = e.memory * (before + kStage * (state[2] - before)) + floor;
-  const double second = e.memory * state[2] + floor;
-
-  // Each force with its spring: both stages are a balance of the same shape.
-  const auto step = [&](double& force, double stiffness, double yielding, double viscous,
-                        double asymmetry, double passive) {
-    const double spring = kStage * dt * stiffness;
-    const auto balance = [&](double pull, double rest) {
-      const double side = pull < 0 ? -1 : 1, factor = 1 + side * asymmetry;
-      const Resistance resistance{yielding * factor, viscous * factor, passive * factor};
-      return side * balanced_force(resistance, std::abs(pull), spring, rest, 1 - e.memory);
-    };
-    const double middle = balance(force + spring * (from + kStage * (to - from)), first);
-    const double rate = (middle - force) / (kStage * dt);
-    force = balance(force + (1 - kStage) * dt * rate + spring * to, second);
-  };
-  step(state[0], e.seal_stiffness, e.seal, 0, 0, 0);
-  step(state[1], e.stiffness, e.yielding, e.viscous, e.asymmetry, e.passive);
+  const PhysicsMember member{m.piston_area, m.gap_area, m.gap, m.pole_length, m.viscosity};
+  return physics_element(&reference, numbers.data(), deviation.data(), &member, m.yield.at(current),
+                         current);
 }
 
 PhysicsFamily::PhysicsFamily(FamilyPhysics physics, const std::string& where)
@@ -228,8 +114,8 @@ void PhysicsFamily::rest(const DamperInput&, std::span<double> state) const noex
 void PhysicsFamily::advance(const FamilyMember& member, const DamperInput& from,
                             const DamperInput& to, double dt,
                             std::span<double> state) const noexcept {
-  advance_element(physics_.element(member, to.current), from.velocity, to.velocity, dt,
-                  state.data());
+  const PhysicsElement element = physics_.element(member, to.current);
+  physics_advance(&element, from.velocity, to.velocity, dt, state.data());
 }
 
 double PhysicsFamily::force(const FamilyMember&, const DamperInput&,

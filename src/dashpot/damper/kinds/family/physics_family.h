@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "dashpot/damper/c_text/physics_family.h"
 #include "dashpot/damper/kinds/family/family_force.h"
 #include "dashpot/value.h"
 
@@ -11,37 +12,14 @@ namespace dashpot {
 
 constexpr std::string_view kPhysicsFamily = "physics";  ///< its kind in a model file
 
-/// One row of the table of what a fit learns; `numbers` of FamilyPhysics are in its order.
+/// One row of the table of what a fit learns; `numbers` of FamilyPhysics are in its order, that of
+/// PhysicsIndex.
 struct PhysicsNumber {
   std::string_view name, meaning;
   double prior;      ///< what it is without data: that of physics, where there is one
   double belief;     ///< in that: the ridge, where geometry has no part in it
   double low, high;  ///< ends of its search
   bool is_geometry;  ///< a correction whose ridge a fit chooses
-};
-
-/// Where each number stands.
-enum PhysicsIndex : std::size_t {
-  kYieldShare,
-  kViscousShare,
-  kSealForce,
-  kSealGive,
-  kStiffness,
-  kFieldExponent,
-  kFieldGain,
-  kFieldHalf,
-  kAsymmetry,
-  kMemory,
-  kOnset,
-  kGeometryShare,
-  kGapOfAll,
-  kLengthOfAll,
-  kFluidOfAll,
-  kGapOfYield,
-  kLengthOfYield,
-  kAreaOfYield,
-  kFluidOfYield,
-  kPhysicsNumbers
 };
 
 /// Plate flow and seal friction, each in series with a spring, times corrections that are positive
@@ -57,16 +35,13 @@ struct FamilyPhysics {
   using Numbers = std::array<double, kPhysicsNumbers>;
 
   /// The middle of the dampers and motions of the fit: numbers are shares and exponents over it.
-  struct Reference {
-    double piston_area = 1, gap_area = 1, gap = 1, pole_length = 1, viscosity = 1;
-    double yield_stress = 1, current = 1, force = 1, speed = 1, stroke = 1;
-  };
+  using Reference = PhysicsReference;
   /// How one build differs from its drawing: logarithms of its whole force, of the flow and of the
   /// springs beyond that, and its offset over the reference force.
   static constexpr std::size_t kDeviations = 4;
   using Deviation = std::array<double, kDeviations>;
 
-  Reference reference;
+  Reference reference{1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   Numbers numbers{};
   Deviation deviation{};  ///< of this build
   /// Covariance of the deviations of dampers left out of the fit, row by row, and what then remains
@@ -75,13 +50,7 @@ struct FamilyPhysics {
   double record_error = 0;
 
   /// What one damper at one current comes to.
-  struct Element {
-    double seal = 0, seal_stiffness = 0;              ///< N, N/m
-    double yielding = 0, viscous = 0, stiffness = 0;  ///< N, N s/m, N/m
-    double asymmetry = 0, memory = 0, slow = 0, time = 1;
-    double offset = 0;   ///< N, of this build
-    double passive = 0;  ///< N s/m, of gaps without field in the same flow
-  };
+  using Element = PhysicsElement;
   Element element(const FamilyMember& member, double current) const noexcept;
   /// The numbers without data.
   static Numbers priors() noexcept;
@@ -90,11 +59,6 @@ struct FamilyPhysics {
 
 /// State: the seal's force and that of the flow, N, and the remembered square of the speed.
 constexpr std::size_t kPhysicsStates = 3;
-
-/// Steps the state from one velocity to the next, by a method of order two that holds for springs
-/// of any stiffness (two stages of implicit Runge-Kutta, L-stable).
-void advance_element(const FamilyPhysics::Element& element, double from, double to, double dt,
-                     double* state) noexcept;
 
 class PhysicsFamily final : public FamilyForce {
  public:
