@@ -160,7 +160,7 @@ TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit")
 TEST_CASE("rank: its progress as JSON has each model when it ends, and parameters as they move") {
   const TemporaryFolder folder;
   const ProgramResult result =
-      run_dashpot("--progress json " + rank_of("bingham,tanh_kwok", folder.path()) + " --fresh");
+      run_dashpot(rank_of("bingham,tanh_kwok", folder.path()) + " --fresh --progress json");
   REQUIRE(result.exit_code == 0);
   const std::string leaderboard = read_file(folder.path() / "leaderboard.csv");
   std::vector<std::string> judged;

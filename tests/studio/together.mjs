@@ -60,6 +60,11 @@ try {
     assert.equal(work.state, "done", JSON.stringify(work));
   }
 
+  // A front goes on from the designs that it has: begun by one of the two.
+  assert.deepEqual(await both((own) => post(own, "/api/work/design", {action: "go_on", name: "same"})), [200, 400]);
+  const gone_on = await until_ended("/api/work/design", "work");
+  assert.equal(gone_on.state, "done", gone_on.message);
+  assert.deepEqual(gone_on.arguments.slice(-4), ["--start-from", join(folder, "designs", "same"), "--output", join(folder, "designs", "same")]);
   const ride = await get(second, "/api/result/ride/same");
   assert.deepEqual(ride.controlled.map((one) => one.name), ["skyhook"]);
 
