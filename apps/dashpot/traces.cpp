@@ -12,7 +12,7 @@ namespace dashpot::cli {
 namespace {
 
 /// A record's name as that of a file.
-std::string file_name(std::string name) {
+std::string trace_name(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
   return name;
@@ -41,7 +41,8 @@ std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit dri
   // The place among the records keeps names apart that files cannot tell apart.
   for (std::size_t k = 0; k < records.size(); ++k)
     (format == "mat" ? save_mat : save_csv)(
-        records[k], folder / fmt::format("{:03}_{}.{}", k + 1, file_name(records[k].name), format));
+        records[k],
+        folder / fmt::format("{:03}_{}.{}", k + 1, trace_name(records[k].name), format));
   return records.size();
 }
 

@@ -87,6 +87,7 @@ class Identifier:
         allow_active=False,
         asymmetric=False,
         network=(),
+        start_from=(),
         starts=4,
         search=0,
         seed=1,
@@ -104,6 +105,7 @@ class Identifier:
         self.allow_active = allow_active
         self.asymmetric = asymmetric
         self.network = network
+        self.start_from = start_from
         self.starts = starts
         self.search = search
         self.seed = seed

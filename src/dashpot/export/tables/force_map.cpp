@@ -39,8 +39,8 @@ double settled_force(const ExportedModel& model, double velocity, double current
 
 /// The nearest number of 12 digits: a table's heads are read by people.
 double readable(double value) {
-  constexpr int kDigits = 12;
-  return *parse_number(format_number(value, kDigits));
+  constexpr int kReadable = 12;
+  return *parse_number(format_number(value, kReadable));
 }
 
 std::vector<double> evenly(double low, double high, int count) {
