@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include <fmt/core.h>
@@ -42,7 +44,8 @@ constexpr std::string_view kManyExample =
     "dashpot identify-many line --models tanh_kwok --output night\n"
     "\n"
     "# Interrupted, or more dampers since? The same command goes on. In parts:\n"
-    "dashpot identify-many line --models tanh_kwok --part 1/2 --output part1   # and 2/2\n"
+    "dashpot identify-many line --models tanh_kwok --part 1/2 --output part1\n"
+    "dashpot identify-many line --models tanh_kwok --part 2/2 --output part2\n"
     "dashpot merge part1 part2 --output night";
 
 ManyOptions many_options(const ManySettings& settings, Console& console) {
@@ -168,7 +171,13 @@ Command identify_many_command() {
         .value = "SHARE",
         .minimum = 0},
        speeds_option(settings->speeds)});
+  // A night has one recipe: what looks at a single damper closely is left to 'identify'.
+  constexpr std::array kOfOneDamper{"--free",       "--bounds", "--prior",  "--allow-active",
+                                    "--asymmetric", "--search", "--network"};
   std::vector<Option> fit = fit_options(settings->fit);
+  std::erase_if(fit, [&](const Option& option) {
+    return std::ranges::find(kOfOneDamper, option.long_name()) != kOfOneDamper.end();
+  });
   for (Option& option : fit)
     if (option.long_name() == "--models")
       option.help =

@@ -36,7 +36,7 @@ TEST_CASE("the completion scripts are valid in their shells") {
 }
 
 TEST_CASE("bash completes commands, options, models and lists of them") {
-  CHECK(bash_completion("dashpot ide", 2) == "identify\n");
+  CHECK(bash_completion("dashpot ide", 2) == "identify identify-many\n");
   CHECK(bash_completion("dashpot identify --leave", 3) == "--leave-out\n");
   CHECK(bash_completion("dashpot models bing", 3) == "bingham\n");
   CHECK(bash_completion("dashpot identify --models bing", 4) == "bingham\n");
