@@ -48,7 +48,7 @@ void require_rising(const FamilyFluid& polynomial, const Value& at) {
 }
 
 /// H over B: [c1, c3] of H = c1 B + c3 B^3, or points of A/m and T.
-void read_field(const Value& value, FluidLaw& law) {
+void read_flux_law(const Value& value, FluidLaw& law) {
   ObjectReader reader(value, "a field over the flux density");
   const Value *polynomial = reader.optional("polynomial"), *points = reader.optional("points");
   const Value* fraction = reader.optional("volume_fraction");
@@ -98,7 +98,7 @@ void read_yield(const Value& value, FluidLaw& law) {
   reader.finish();
 }
 
-FluidLaw read_law(const std::string& name, const Value& value) {
+FluidLaw read_fluid_law(const std::string& name, const Value& value) {
   FluidLaw law;
   law.name = name;
   if (name.empty() ||
@@ -114,7 +114,7 @@ FluidLaw read_law(const std::string& name, const Value& value) {
     law.volume_fraction =
         more_than_zero(read_share(*fraction, "volume_fraction"), *fraction, "volume_fraction");
   } else {
-    read_field(reader.required("field"), law);
+    read_flux_law(reader.required("field"), law);
     read_yield(reader.required("yield_stress"), law);
   }
   law.verified = reader.boolean("verified", true);
@@ -221,7 +221,7 @@ Fluid read_fluid(const Value& value) {
   }
 
   for (const auto& [name, law] : reader.required("laws").members())
-    fluid.laws.push_back(read_law(name, law));
+    fluid.laws.push_back(read_fluid_law(name, law));
   if (fluid.laws.empty())
     throw Error(value.where(), "has no law of its yield stress",
                 "laws: {measured: {field: ..., yield_stress: ...}}");

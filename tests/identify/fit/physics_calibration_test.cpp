@@ -23,8 +23,8 @@ DamperDescription drawn() {
 
 /// Recordings of a damper whose fluid differs from its drawing's, by bisection in steps much finer
 /// than the samples: plate flow in series with a spring, Coulomb friction beside.
-Dataset recorded(const std::vector<double>& currents, double yield, double viscosity,
-                 double friction, double spring) {
+Dataset bench_of_drawn(const std::vector<double>& currents, double yield, double viscosity,
+                       double friction, double spring) {
   const DamperDescription damper = drawn();
   Dataset data;
   data.name = "recorded";
@@ -82,7 +82,7 @@ const PhysicsCalibration::Number& number(const PhysicsCalibration& found, const 
 
 TEST_CASE("a calibration finds fluid, friction and compliance of a drawn damper, with intervals") {
   const PhysicsCalibration found =
-      calibrate_physics(drawn(), recorded({0, 0.5, 1, 2}, 0.8, 1.3, 40, 8e5));
+      calibrate_physics(drawn(), bench_of_drawn({0, 0.5, 1, 2}, 0.8, 1.3, 40, 8e5));
   CHECK_CLOSE(number(found, "yield_stress").value, 0.8, 0.02, 0);
   CHECK_CLOSE(number(found, "viscosity").value, 1.3, 0.05, 0);
   CHECK_CLOSE(number(found, "friction").value, 40, 0.1, 0);
@@ -110,18 +110,18 @@ TEST_CASE("a calibration finds fluid, friction and compliance of a drawn damper,
 TEST_CASE("a calibration says what its recordings do not tell, and refuses what it cannot use") {
   // Without a current there is hardly a yield stress.
   CHECK(message_of([] {
-          calibrate_physics(drawn(), recorded({0}, 1, 1, 40, 8e5));
+          calibrate_physics(drawn(), bench_of_drawn({0}, 1, 1, 40, 8e5));
         }).find("no recording has a current") != std::string::npos);
 
   // A strong current alone tells friction less surely than with a record without current.
   const auto width = [](const std::vector<double>& currents) {
     const PhysicsCalibration found =
-        calibrate_physics(drawn(), recorded(currents, 0.8, 1.3, 40, 8e5));
+        calibrate_physics(drawn(), bench_of_drawn(currents, 0.8, 1.3, 40, 8e5));
     return number(found, "friction").high / number(found, "friction").low - 1;
   };
   CHECK(width({2}) > 3 * width({0, 2}));
 
-  Dataset another = recorded({1}, 1, 1, 40, 8e5);
+  Dataset another = bench_of_drawn({1}, 1, 1, 40, 8e5);
   another.records.front().conditions = {{"gap", 1.2e-3}};
   CHECK(message_of([&] {
           calibrate_physics(drawn(), another);
@@ -129,9 +129,9 @@ TEST_CASE("a calibration says what its recordings do not tell, and refuses what 
   DamperDescription fixed = drawn();
   fixed.yield_stress = 1e4;
   CHECK(message_of([&] {
-          calibrate_physics(fixed, recorded({1}, 1, 1, 40, 8e5));
+          calibrate_physics(fixed, bench_of_drawn({1}, 1, 1, 40, 8e5));
         }).find("at any current") != std::string::npos);
-  Dataset volts = recorded({1}, 1, 1, 40, 8e5);
+  Dataset volts = bench_of_drawn({1}, 1, 1, 40, 8e5);
   volts.drive_unit = DriveUnit::Volt;
   CHECK(message_of([&] { calibrate_physics(drawn(), volts); }).find("is driven by V") !=
         std::string::npos);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
 
 namespace dashpot {
@@ -37,6 +38,8 @@ inline double observed_force(const Observer* m, const DamperInput* input, const 
 BareDamper without_coil_lag(const DamperModel& model) {
   const LawModel* law = model.law_inside();
   const auto* hybrid = model_as<HybridModel>(model);
+  if (const auto* family = model_as<FamilyModel>(model); family && family->member().lag_rate > 0)
+    return {family->without_lag(), family->member().lag_rate};
   if (!law || law->lag_rate() == 0) return {model.with_offset(0), 0};
   LawModel bare(law->law(), law->parameters(), law->drive_unit(), 0);
   if (!hybrid) return {std::make_unique<LawModel>(std::move(bare)), law->lag_rate()};

@@ -189,7 +189,7 @@ class CalibrationProblem {
 };
 
 /// The start from which the residuals are least, of some compliances.
-std::vector<double> best_start(const CalibrationProblem& problem, double friction) {
+std::vector<double> calibration_start(const CalibrationProblem& problem, double friction) {
   std::vector<double> best, r(problem.samples());
   double least = INFINITY;
   for (const double compliance : {0.3, 0.03, 0.003})
@@ -281,7 +281,7 @@ PhysicsCalibration calibrate_physics(const DamperDescription& drawing, const Dat
   LeastSquaresProblem squares;
   squares.residuals = problem.samples();
   squares.parts.assign(problem.first().begin(), problem.first().end() - 1);
-  const std::vector<double> start = best_start(problem, drawing.friction);
+  const std::vector<double> start = calibration_start(problem, drawing.friction);
   for (std::size_t k = 0; k < kCalibrationNumbers; ++k) {
     const double far = k == kFriction ? 7 : 5;
     squares.lower.push_back(start[k] - far);

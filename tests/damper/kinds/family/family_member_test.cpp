@@ -1,5 +1,9 @@
 #include "dashpot/damper/kinds/family/family_member.h"
 
+#include <array>
+#include <cmath>
+
+#include "dashpot/damper/inverse/observer.h"
 #include "dashpot/physics/damper_physics.h"
 #include "example_family.h"
 #include "support.h"
@@ -42,4 +46,32 @@ TEST_CASE("a drawing makes a member with the physics' own numbers") {
   CHECK(member.gap_area == physics.gap_area);
   CHECK(member.viscosity == physics.viscosity);
   CHECK_CLOSE(member.yield.at(0.5), physics.yield_stress, 1e-12, 0);
+}
+
+TEST_CASE("a member's coil lags its command, as its drawing says, and without it follows at once") {
+  const DamperDescription drawn = named_description("family_prototype");
+  const FamilyMember member = member_of(drawn, 1);
+  CHECK_CLOSE(member.lag_rate, 1 / evaluate_physics(drawn, {.current = 1}).time_constant, 1e-12, 0);
+  CHECK(read_member(to_json(member)).lag_rate == member.lag_rate);
+  CHECK(member_of(drawn, std::array{0.}).lag_rate == 0);
+  CHECK(message_of([&] {
+          Value value = to_json(member_of(drawn, std::array{0.}));
+          value.add("lag_rate", -1);
+          read_member(value);
+        }).find("lag_rate is -1") != std::string::npos);
+
+  // One time constant after a step of the command the coil has 63 % of it.
+  const FamilyModel model = example_family_lag();
+  const double lag = 1 / model.member().lag_rate;
+  std::vector<double> state(model.state_size()), plain(model.state_size() - 1);
+  model.rest({0, 0, 0}, state);
+  model.advance({0, 0, 1}, {0, 0, 1}, lag, state);
+  CHECK_CLOSE(state.back(), 1 - std::exp(-1.), 1e-12, 0);
+  const auto bare = model.without_lag();
+  const DamperInput coil{0, 0.05, state.back()};
+  bare->rest({0, 0, 0}, plain);
+  CHECK(model.force({0, 0.05, 1}, state) == bare->force(coil, std::span(state).first(3)));
+  const BareDamper taken = without_coil_lag(model);
+  CHECK(taken.lag_rate == model.member().lag_rate);
+  CHECK(taken.model->state_size() == 3);
 }

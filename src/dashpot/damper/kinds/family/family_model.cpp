@@ -87,6 +87,12 @@ std::unique_ptr<FamilyModel> FamilyModel::with_outside(OutsideFamily outside) co
   return std::make_unique<FamilyModel>(std::move(family), member_, offset_);
 }
 
+std::unique_ptr<FamilyModel> FamilyModel::without_lag() const {
+  FamilyMember member = member_;
+  member.lag_rate = 0;
+  return std::make_unique<FamilyModel>(family_, member, offset_);
+}
+
 std::shared_ptr<const DamperModel> FamilyModel::specialised(const Conditions& conditions) const {
   bool any = find_condition(conditions, kYieldStress) != nullptr;
   for (const MemberField& field : member_fields())

@@ -71,6 +71,8 @@ class FamilyModel final : public DamperModel {
   /// Another member, as specialised().
   std::shared_ptr<const FamilyModel> with_member(const FamilyMember& member) const;
   std::unique_ptr<FamilyModel> with_outside(OutsideFamily outside) const;
+  /// The same damper whose coil follows its command at once.
+  std::unique_ptr<FamilyModel> without_lag() const;
 
  private:
   /// The input with the current that flows in the coil.
