@@ -33,7 +33,7 @@ FitReport brief_fit(const std::string& model, bool allow_active) {
   return fit;
 }
 
-Dissipation network_verdict(const FitReport& fit) {
+Dissipation verdict_of_brief(const FitReport& fit) {
   return dissipation(*fit.model, domain_of(records_of_a_bench(), DriveUnit::Ampere));
 }
 
@@ -61,11 +61,11 @@ TEST_CASE("an ensemble that would feed energy in is trained on until it does not
   for (const std::string name : kEnsembles) {
     CAPTURE(name);
     const FitReport active = brief_fit(name, true);
-    CHECK_FALSE(network_verdict(active).dissipates());
+    CHECK_FALSE(verdict_of_brief(active).dissipates());
     CHECK(active.warnings.empty());
 
     const FitReport paid = brief_fit(name, false);
-    CHECK(network_verdict(paid).dissipates());
+    CHECK(verdict_of_brief(paid).dissipates());
     CHECK(share_between(*paid.model) > -0.02);
     CHECK(paid.training_rmse < 2 * active.training_rmse);
     REQUIRE(paid.warnings.size() == 1);
@@ -80,7 +80,7 @@ TEST_CASE("an ensemble that dissipates as it fits best keeps its digits") {
     options.network = {.hidden = {4}, .epochs = 12, .l2 = 1e-4, .members = 2};
     const FitReport fit =
         identify("hysteresis_network", records_of_a_bench(), DriveUnit::Ampere, options);
-    CHECK(network_verdict(fit).dissipates());
+    CHECK(verdict_of_brief(fit).dissipates());
     CHECK(fit.warnings.empty());
     return format_json(fit.model->to_json());
   };
