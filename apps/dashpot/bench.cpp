@@ -21,6 +21,7 @@ struct BenchSettings {
   std::string folder = "dashpot-bench";
   bool list_sequences = false;
   LineSettings line;
+  double scatter = NAN;  ///< of builds or of a line; NaN: as usual for each
 };
 
 constexpr std::string_view kBenchExample =
@@ -79,13 +80,17 @@ int run_family(const BenchSettings& settings, Console& console) {
   return kDone;
 }
 
-int run_bench(const BenchSettings& settings, Console& console) {
+int run_bench(BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+
+  // One option for what scatters, builds of drawings or dampers of a line.
+  if (std::isfinite(settings.scatter))
+    settings.family.scatter = settings.line.scatter = settings.scatter;
   if (!settings.family.drawings.empty()) return run_family(settings, console);
   const FamilyBenchSettings usual;
   if (!settings.family.fluids.empty() || settings.family.builds != usual.builds ||
-      settings.family.scatter != usual.scatter || settings.family.asymmetry != 0 ||
-      settings.family.give != usual.give)
+      settings.family.asymmetry != 0 || settings.family.give != usual.give ||
+      (std::isfinite(settings.scatter) && settings.line.dampers == 0))
     throw UsageError("--family", "is missing: fluids, builds and their scatter are a family's",
                      "--family drawings/");
 
@@ -144,6 +149,14 @@ Command bench_command() {
                              .value = "DIR",
                              .takes = Takes::Folder});
   append(command.options, line_options(settings->line));
+  command.options.push_back(
+      {.names = "--scatter",
+       .target = &settings->scatter,
+       .help = "standard deviation, as a share: of a build's flow and friction from its drawing, "
+               "or of each parameter over a line",
+       .value = "SHARE",
+       .minimum = 0,
+       .default_text = "0.03 for builds, 0.02 over a line"});
   command.options.push_back(
       {.names = "--sequences",
        .target = &settings->list_sequences,
