@@ -122,10 +122,12 @@ TEST_CASE(
   const TemporaryFolder folder;
   IdentifyOptions options;
   options.network = {.epochs = 200, .members = 1};
+  // A hysteresis network is not among them: one that passes within its data can diverge beyond
+  // them, at the speeds of a wheel after a step (docs/dissipation.md).
   for (const std::string name :
        {"bingham", "tanh_kwok", "bouc_wen", "modified_bouc_wen", "large_scale_bouc_wen",
-        "extended_bingham", "passive_network", "hysteresis_network", "arctan", "sigmoid",
-        "hysteretic_biviscous", "tanh_acceleration", "polynomial"}) {
+        "extended_bingham", "passive_network", "arctan", "sigmoid", "hysteretic_biviscous",
+        "tanh_acceleration", "polynomial"}) {
     CAPTURE(name);
     const FitReport fit = identify(name, training, DriveUnit::Ampere, options);
     REQUIRE(fit.model);

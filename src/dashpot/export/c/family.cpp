@@ -313,11 +313,16 @@ CModel c_family(const FamilyModel& model, bool settable) {
   const std::string sum = "  return (" + strength +
                           " * (family_baseline(@in@) + family_force(@in@, state))) + " +
                           c_number(model.offset()) + ";\n}\n\n";
-  return {code + baseline_function(model) + begin +
-          (lags ? "  DamperInput coil = *input;\n  coil.current = state[" +
-                      std::to_string(model.state_size() - 1) + "];\n"
-                : "") +
-          filled(sum, {{"in", CText(CText::own(lags ? "&coil" : "input"))}})};
+  CModel c;
+  c.code = code + baseline_function(model) + begin +
+           (lags ? "  DamperInput coil = *input;\n  coil.current = state[" +
+                       std::to_string(model.state_size() - 1) + "];\n"
+                 : "") +
+           filled(sum, {{"in", CText(CText::own(lags ? "&coil" : "input"))}});
+
+  // Its springs stand in series with the flow: what is left of their travel is a small difference.
+  if (physics) c.single_tolerance = "5e-5";
+  return c;
 }
 
 }  // namespace dashpot
