@@ -320,8 +320,8 @@ CModel c_family(const FamilyModel& model, bool settable) {
                  : "") +
            filled(sum, {{"in", CText(CText::own(lags ? "&coil" : "input"))}});
 
-  // Its springs stand in series with the flow: what is left of their travel is a small difference.
-  if (physics) c.single_tolerance = "5e-5";
+  // Its springs stand in series with the flow, and where the flow settles is iterated to 1e-5.
+  if (physics) c.single_tolerance = "1e-4";
   return c;
 }
 
