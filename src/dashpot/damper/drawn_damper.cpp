@@ -46,7 +46,7 @@ void DrawnDamper::advance(const DamperInput&, const DamperInput& to, double dt,
                           std::span<double> state) const noexcept {
   // The spring's force at the end of the step is that at which what it gives and what flows make up
   // the motion: implicit, so that any stiffness will do.
-  constexpr double kTolerance = 1e-9;
+  constexpr double kFlowTolerance = 1e-9;
   const double give = build_.stiffness * dt;
   const double pull = state[0] + give * to.velocity, size = std::abs(pull);
   const double side = pull < 0 ? -1 : 1, lean = 1 + side * build_.asymmetry;
@@ -60,7 +60,7 @@ void DrawnDamper::advance(const DamperInput&, const DamperInput& to, double dt,
     return;
   }
   const double most = size / give;
-  const double speed = find_root(excess, {0, still}, {most, excess(most)}, kTolerance * size);
+  const double speed = find_root(excess, {0, still}, {most, excess(most)}, kFlowTolerance * size);
   state[0] = side * (size - give * speed);
 }
 
