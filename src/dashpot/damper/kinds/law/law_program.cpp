@@ -336,6 +336,7 @@ void LawProgram::step(const Piece& piece, double* r, const double* x, const doub
   for (std::size_t k = 0; k < states_; ++k) z[k] = r[piece.outputs[k]];
 }
 
+/// One case per operation, each a line of arithmetic; the outcome goes to its place in r.
 void LawProgram::work(const Operation* at, const Operation* end, double* r) {
   double it = 0;  // the outcome of the operation before
   for (; at != end; ++at) {
