@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
@@ -20,6 +22,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char *kWait = "wait", *kEnd = "end";
+
+/// Rank 0: what workers that have left a farm already say of the next one.
+std::vector<Ranks::Message> of_next_farm;
 
 int loops_of(int threads) { return threads > 0 ? threads : default_threads(); }
 
@@ -52,6 +57,9 @@ class FarmHost {
     if (failure_) std::rethrow_exception(failure_);
   }
 
+  /// What workers looked up before they began here: it is no result of an earlier run.
+  std::size_t found_before() const { return found_before_; }
+
  private:
   std::optional<std::size_t> claim() {
     const std::size_t k = next_.fetch_add(1);
@@ -65,9 +73,10 @@ class FarmHost {
     auto pause = 20us;
     try {
       std::size_t left = 0;
+      for (const Ranks::Message& message : std::exchange(of_next_farm, {})) left += take(message);
       while (left + 1 < ranks().count() && !stop_) {
         if (const auto message = ranks().next()) {
-          left += answer(*message);
+          left += take(*message);
           pause = 20us;
           continue;
         }
@@ -80,7 +89,20 @@ class FarmHost {
     }
   }
 
-  /// Whether the worker has left with this.
+  /// Whether a worker leaves with this message. One that has left goes on to the next farm while
+  /// slower ones still work here: what it says then is for that one.
+  bool take(const Ranks::Message& message) {
+    Stage& stage = stages_[message.from];
+    if (stage == Stage::Left && message.tag != kFailed) {
+      of_next_farm.push_back(message);
+      return false;
+    }
+    if (message.tag == kHello) stage = Stage::Working;
+    const bool leaves = answer(message);
+    if (leaves) stage = Stage::Left;
+    return leaves;
+  }
+
   bool answer(const Ranks::Message& message) {
     const auto& [from, tag, bytes] = message;
     switch (tag) {
@@ -107,6 +129,7 @@ class FarmHost {
         return false;
       case kLoad: {
         const auto found = store_.load(bytes);
+        if (found && stages_[from] == Stage::Before) ++found_before_;
         ranks().send(from, kLoaded, found ? '1' + *found : std::string());
         return false;
       }
@@ -123,6 +146,9 @@ class FarmHost {
   Store& store_;
   const std::string greeting_;
   std::atomic<std::size_t> next_ = 0, done_ = 0;
+  enum class Stage { Before, Working, Left };
+  std::vector<Stage> stages_ = std::vector<Stage>(ranks().count());
+  std::size_t found_before_ = 0;
   std::atomic<bool> stop_ = false;
   std::exception_ptr failure_;
 };
@@ -154,14 +180,17 @@ void work_for_host(int threads, const Store& store, const std::string& work,
 
 FarmReport farm_out(std::span<const std::size_t> numbers, int threads, Store& store,
                     const std::string& work, const std::function<void(std::size_t)>& task) {
-  const std::size_t found = store.found();
+  std::size_t found = store.found();
   const auto begin = std::chrono::steady_clock::now();
   if (ranks().is_alone())
     parallel_for(numbers.size(), threads, [&](std::size_t k) { task(numbers[k]); });
   else if (ranks().is_worker())
     work_for_host(threads, store, work, task);
-  else
-    FarmHost(numbers, store, work).run(threads, task);
+  else {
+    FarmHost host(numbers, store, work);
+    host.run(threads, task);
+    found += host.found_before();
+  }
   return {.found = store.found() - found,
           .wall_seconds =
               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
