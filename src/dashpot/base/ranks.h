@@ -58,10 +58,9 @@ void end_ranks(int code);
 /// Tags of messages to and from rank 0.
 enum RankTag : int {
   kHello = 1,  ///< a worker begins a piece of work: a hash of what that is
-  kNext,       ///< wants a task; "1" where it has ended one
-  kTask,       ///< the answer: a number, "wait" or "end"
-  kSave,       ///< results for the store
-  kSaved,      ///< they are kept
+  kNext,       ///< wants tasks: how many it has ended since it asked last, and how many it wants
+  kTask,       ///< the answer: numbers, "wait" or "end"
+  kSave,       ///< results for the store, kept before what this rank says next is answered
   kLoad,       ///< a key of the store
   kLoaded,     ///< the answer: "1" and the bytes, or nothing
   kLeft,       ///< a worker has no more to do in this piece of work

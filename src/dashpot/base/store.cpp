@@ -362,7 +362,7 @@ void Store::save(std::span<const Result> results) {
       pack(packed, key);
       pack(packed, bytes);
     }
-    ranks().ask(kSave, packed);
+    ranks().tell(kSave, packed);
     return;
   }
   Connection& open = *connection_;

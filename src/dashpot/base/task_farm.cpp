@@ -5,6 +5,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -25,6 +26,22 @@ constexpr const char *kWait = "wait", *kEnd = "end";
 
 /// Rank 0: what workers that have left a farm already say of the next one.
 std::vector<Ranks::Message> of_next_farm;
+
+/// What a thread of a worker says where it wants tasks.
+struct Ended {
+  std::size_t tasks = 0;   ///< those done since it asked last
+  std::size_t wanted = 1;  ///< tasks that keep it busy for a while
+};
+
+std::string format_ended(const Ended& ended) {
+  return std::to_string(ended.tasks) + ' ' + std::to_string(ended.wanted);
+}
+
+Ended read_ended(const std::string& text) {
+  std::size_t end = 0;
+  const std::size_t tasks = std::stoul(text, &end);
+  return {tasks, std::stoul(text.substr(end))};
+}
 
 int loops_of(int threads) { return threads > 0 ? threads : default_threads(); }
 
@@ -65,6 +82,15 @@ class FarmHost {
     const std::size_t k = next_.fetch_add(1);
     if (k >= numbers_.size()) return std::nullopt;
     return numbers_[k];
+  }
+
+  /// The numbers of the next tasks: as many as are wanted, while enough are left for all.
+  std::string claim_block(std::size_t wanted) {
+    const std::size_t left = numbers_.size() - std::min<std::size_t>(next_, numbers_.size());
+    std::string block;
+    for (std::size_t k = std::clamp<std::size_t>(left / (4 * ranks().count()), 1, wanted); k; --k)
+      if (const auto number = claim()) block += std::to_string(*number) + ' ';
+    return block;
   }
 
   /// Answers the workers until all of them have left. A failure ends the tasks.
@@ -114,18 +140,15 @@ class FarmHost {
                       "avx2 where processors differ");
         return false;
       case kNext: {
-        done_ += bytes.size();
-        const auto number = claim();
+        const Ended ended = read_ended(bytes);
+        done_ += ended.tasks;
+        const std::string block = claim_block(ended.wanted);
         // Whoever finds no task waits for the last ones: what they make is needed by all.
-        ranks().send(from, kTask,
-                     number                    ? std::to_string(*number)
-                     : done_ < numbers_.size() ? kWait
-                                               : kEnd);
+        ranks().send(from, kTask, !block.empty() ? block : done_ < numbers_.size() ? kWait : kEnd);
         return false;
       }
       case kSave:
         store_.save_packed(bytes);
-        ranks().send(from, kSaved, {});
         return false;
       case kLoad: {
         const auto found = store_.load(bytes);
@@ -153,24 +176,36 @@ class FarmHost {
   std::exception_ptr failure_;
 };
 
-/// A worker: asks rank 0 for one task after the other.
+/// How many tasks fill the time after which a worker may ask again, after a block that took this
+/// long: a message costs a millisecond, which tasks of a few would feel.
+std::size_t wanted_after(std::size_t tasks, std::chrono::duration<double> duration) {
+  constexpr std::chrono::duration<double> kBlock = 50ms;
+  constexpr double kMost = 64;
+  return static_cast<std::size_t>(
+      std::clamp(static_cast<double>(tasks) * (kBlock / duration), 1.0, kMost));
+}
+
+/// A worker: asks rank 0 for one block of tasks after the other.
 void work_for_host(int threads, const Store& store, const std::string& work,
                    const std::function<void(std::size_t)>& task) {
   constexpr auto kShortest = 5ms, kLongest = 200ms;
   ranks().tell(kHello, greeting(store, work));
   parallel_for(static_cast<std::size_t>(loops_of(threads)), threads, [&](std::size_t) {
     auto pause = kShortest;
-    for (std::string ended;;) {
-      const std::string answer = ranks().ask(kNext, ended);
-      ended.clear();
+    for (Ended ended;;) {
+      const std::string answer = ranks().ask(kNext, format_ended(ended));
+      ended.tasks = 0;
       if (answer == kEnd) break;
       if (answer == kWait) {
         std::this_thread::sleep_for(pause);
         pause = std::min(kLongest, 2 * pause);
         continue;
       }
-      task(std::stoul(answer));
-      ended = "1";
+
+      const auto begin = std::chrono::steady_clock::now();
+      std::istringstream block(answer);
+      for (std::size_t number = 0; block >> number; ++ended.tasks) task(number);
+      ended.wanted = wanted_after(ended.tasks, std::chrono::steady_clock::now() - begin);
     }
   });
   ranks().tell(kLeft, {});
