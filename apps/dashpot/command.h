@@ -46,6 +46,7 @@ struct Option {
   std::optional<double> minimum = {};  ///< least number allowed
   std::string default_text = {};       ///< in words, where the variable's value does not say it
   bool required = false;
+  std::string details = {};  ///< what follows `help` where there is room: a topic, the docs page
 
   bool is_positional() const { return names.front() != '-'; }
   bool is_switch() const { return std::holds_alternative<bool*>(target); }

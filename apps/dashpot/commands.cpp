@@ -17,15 +17,16 @@ std::vector<Command> all_commands() {
 std::vector<Option> common_options(Console& console) {
   return {{.names = "--json",
            .target = &console.json,
-           .help = "print the result as JSON on stdout; all else goes to stderr"},
+           .help = "the result as JSON on stdout; all else on stderr"},
           {.names = "-q,--quiet",
            .target = &console.quiet,
            .help = "no progress and no notes on stderr"},
           {.names = "--progress",
            .target = &console.progress,
-           .help = "progress on stderr for people, or lines of JSON",
+           .help = "progress on stderr",
            .value = "FORMAT",
-           .choices = {"text", "json"}}};
+           .choices = {"text", "json"},
+           .details = ": for people, or as lines of JSON"}};
 }
 
 }  // namespace dashpot::cli

@@ -67,7 +67,7 @@ std::vector<std::string> exporter_names() {
 std::string formats_text() {
   std::string text;
   for (const Exporter& exporter : exporters())
-    text += fmt::format(" {}: {}, from {}; writes {}.", exporter.name, exporter.title,
+    text += fmt::format(". {}: {}, from {}; writes {}", exporter.name, exporter.title,
                         exporter.takes, exporter.files);
   return text;
 }
@@ -267,7 +267,8 @@ Command export_command() {
                     .help = "the formats to write",
                     .value = "FORMAT",
                     .choices = exporter_names(),
-                    .noun = "format"},
+                    .noun = "format",
+                    .details = formats_text()},
                    {.names = "--name",
                     .target = &settings->name,
                     .help = "name of the files and of the functions in them",
@@ -323,8 +324,7 @@ Command export_command() {
           .description =
               "Writes a model in a form that no longer needs Dashpot. An inverse network that "
               "'dashpot invert' wrote, an inverse of a damper (--inverse) and a vehicle's "
-              "controller (--controller) are exported, too, where a format takes them." +
-              formats_text(),
+              "controller (--controller) are exported, too, where a format takes them.",
           .options = std::move(options),
           .example = std::string(kExportExample),
           .run = [settings](Console& console) { return run_export(*settings, console); }};

@@ -139,11 +139,12 @@ Command identify_command() {
          {{.names = "--in",
            .target = &settings->plant,
            .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
-                   "a YAML file or words (docs/in-plant.md); the laws of --models are identified "
-                   "as part of it, with its unknown numbers",
+                   "a YAML file or words (docs/in-plant.md)",
            .value = "PLANT",
            .takes = Takes::File,
-           .default_text = "a bench that measures the damper's force"}});
+           .default_text = "a bench that measures the damper's force",
+           .details = "; the laws of --models are identified as part of it, with its unknown "
+                      "numbers"}});
   return command;
 }
 

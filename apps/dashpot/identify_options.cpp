@@ -59,19 +59,18 @@ std::vector<Option> fit_options(FitSettings& settings) {
       {.names = "--models",
        .target = &settings.models,
        .help = "the models to fit, separated by commas, a law of your own by its file "
-               "(docs/laws-from-a-file.md); 'usual' stands for " +
-               join(usual_models(), ", ") +
-               " (passive_network_one_sensor where the records have no displacement), as far as "
-               "the time allows; 'all' for every model of one damper that 'dashpot models' lists, "
-               "'family' for "
-               "those of a family of dampers",
+               "(docs/laws-from-a-file.md), or 'usual', 'all' or 'family' for a group of them",
        .value = "NAMES",
        .choices = names_and_groups(),
        .more_choices = more_model_names(),
        .noun = "model",
        .takes = Takes::File,
        .meaning = model_named,
-       .default_text = join(settings.models, ",")},
+       .default_text = join(settings.models, ","),
+       .details = "; 'usual' stands for " + join(usual_models(), ", ") +
+                  " (passive_network_one_sensor where the records have no displacement), as far "
+                  "as the time allows; 'all' for every model of one damper that 'dashpot models' "
+                  "lists, 'family' for those of a family of dampers"},
       {.names = "--force-offset",
        .target = &settings.force_offset,
        .help = "the force zero (gas, load cell): a free offset per record, or none beside the "
@@ -150,11 +149,13 @@ Option budget_option(FitSettings& settings, const std::string& default_text) {
           .target = &settings.budget,
           .help =
               "minutes on two cores, by estimated cost, that the models of a group ('usual', "
-              "'all') may take: cheap ones are tried first, and what is not tried is said; "
-              "models that are named themselves are always fitted; 0: no limit",
+              "'all') may take",
           .value = "MINUTES",
           .minimum = 0,
-          .default_text = default_text};
+          .default_text = default_text,
+          .details =
+              ": cheap ones are tried first, and what is not tried is said; models that are "
+              "named themselves are always fitted; 0: no limit"};
 }
 
 ChosenModels chosen_models(const FitSettings& settings, const Dataset& dataset,

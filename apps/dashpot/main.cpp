@@ -122,6 +122,18 @@ void join_job(const Command& command, Console& console) {
                      "start it alone; rank, search, sweep and identify-many share theirs");
 }
 
+/// What `--help` is to print: the command's own text, or that on the word behind it. Empty where
+/// nobody asks.
+std::string asked_help(const std::vector<std::string>& words, const Command& command,
+                       const std::vector<Option>& common, const Console& console) {
+  const auto asked =
+      std::ranges::find_if(words, [](const auto& w) { return w == "--help" || w == "-h"; });
+  if (asked == words.end()) return {};
+  const auto on = std::next(asked);
+  return on == words.end() ? command_help(command, common, console)
+                           : help_on(*on, command, common, console);
+}
+
 int run_command(std::vector<std::string> words, Console& console) {
   const Command command = named_command(words);
   join_job(command, console);
@@ -129,7 +141,7 @@ int run_command(std::vector<std::string> words, Console& console) {
   std::vector<Option> options = command.options;
   append(options, common);
   // Help prints the defaults, so it is written before anything is parsed into them.
-  const std::string help = command_help(command, common, console);
+  const std::string help = asked_help(words, command, common, console);
   if (!parse_arguments(command.name, options, words)) {
     console.json = false;
     console.print(help);
@@ -155,12 +167,15 @@ int run_words(const std::vector<std::string>& words, Console& console) {
     return kDone;
   }
 
-  // 'dashpot help rank' is 'dashpot rank --help'.
+  // 'dashpot help rank' is 'dashpot rank --help', and 'dashpot help rank laws' a part of it.
   if (words.front() == "help") {
-    std::vector<std::string> named(words.begin() + 1, words.end());
-    if (named.empty()) return run_words({}, console);
-    named.emplace_back("--help");
-    return run_command(named, console);
+    std::vector<std::string> on(words.begin() + 1, words.end());
+    if (on.empty()) return run_words({}, console);
+    const Command command = named_command(on);
+    const std::vector<Option> common = common_options(console);
+    console.print(on.empty() ? command_help(command, common, console)
+                             : help_on(on.front(), command, common, console));
+    return kDone;
   }
 
   if (words.front() == "--help-markdown") {

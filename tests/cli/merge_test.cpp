@@ -50,7 +50,7 @@ TEST_CASE("rank in three parts on unlike machines: joined, it is what one proces
       "merge " + (whole / "fits.sqlite").string() + " --output " + joined.string();
   CHECK(contains(run_dashpot(again).output, "8 results from 1 store; 8 found more than once"));
   CHECK(read_file(joined / "fits.sqlite").size() == before.size());
-  if (!contains(run_dashpot("rank --help").output, "avx2")) return;
+  if (!contains(run_dashpot("help rank --simd").output, "avx2")) return;
   const ProgramResult other =
       run_dashpot("rank " + small_campaign().string() + " --models bingham --simd avx2 --output " +
                   joined.string());

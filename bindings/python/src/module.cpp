@@ -254,7 +254,8 @@ void bind_model(py::module_& module) {
           arg("to"), arg("folder") = "dashpot-export",
           "Writes the model as files for other programs, as `dashpot export` does; returns their "
           "paths.\n\n"
-          "to: \"c\", \"fmu2\", \"fmu3\", \"tables\" ..., one or a list; `dashpot export --help` "
+          "to: \"c\", \"fmu2\", \"fmu3\", \"tables\" ..., one or a list; `dashpot help export "
+          "--to` "
           "has all.\n"
           "name: of the files and of the functions in them (\"\": the model's). precision: "
           "\"double\" or\n"
