@@ -29,8 +29,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "exported C: every kind of model in single precision gives it within 1e-5 (springs in series "
-    "5e-5), without a double" *
+    "exported C: every kind of model in single precision gives it within 1e-5, without a "
+    "double" *
     doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;

@@ -108,11 +108,16 @@ static inline double physics_balance(double yielding, double viscous, double pas
     } else {
       low = u;
     }
-    next = u - excess / (r.value + u * r.slope * own * u / s + spring);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    step = fabs(next - u);
-    u = next;
-    if (step <= tolerance * u) break;
+    step = excess / (r.value + u * r.slope * own * u / s + spring);
+    next = u - step;
+
+    /* The last step is Newton's own: what it leaves is of the order of its square. A bracket that
+     * holds no rounding any more would send it back to the middle. */
+    if (fabs(step) <= tolerance * u) {
+      u = next;
+      break;
+    }
+    u = next > low && next < high ? next : 0.5 * (low + high);
   }
   r = physics_resistance(yielding, viscous, passive, sqrt(rest + own * u * u));
   return u * r.value;

@@ -29,8 +29,6 @@ struct Mlp;
 struct CModel {
   std::string code;
   bool has_derivatives = false;  ///< also void model_derivatives(input, state, double* derivatives)
-  /// Share of the force's span within which single precision gives the force.
-  std::string single_tolerance = "1e-5";
 };
 
 /// A number of a model that whoever runs its C code may set.

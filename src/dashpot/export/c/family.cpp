@@ -313,16 +313,11 @@ CModel c_family(const FamilyModel& model, bool settable) {
   const std::string sum = "  return (" + strength +
                           " * (family_baseline(@in@) + family_force(@in@, state))) + " +
                           c_number(model.offset()) + ";\n}\n\n";
-  CModel c;
-  c.code = code + baseline_function(model) + begin +
-           (lags ? "  DamperInput coil = *input;\n  coil.current = state[" +
-                       std::to_string(model.state_size() - 1) + "];\n"
-                 : "") +
-           filled(sum, {{"in", CText(CText::own(lags ? "&coil" : "input"))}});
-
-  // Its springs stand in series with the flow, and where the flow settles is iterated to 1e-5.
-  if (physics) c.single_tolerance = "1e-4";
-  return c;
+  return {code + baseline_function(model) + begin +
+          (lags ? "  DamperInput coil = *input;\n  coil.current = state[" +
+                      std::to_string(model.state_size() - 1) + "];\n"
+                : "") +
+          filled(sum, {{"in", CText(CText::own(lags ? "&coil" : "input"))}})};
 }
 
 }  // namespace dashpot

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dashpot/base/random.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/model_file.h"
 #include "dashpot/physics/plate_flow.h"
@@ -68,6 +69,31 @@ TEST_CASE("a family of physics alone has the plate flow's force and the seal's f
       CAPTURE(i);
       CHECK_CLOSE(steady_force(model, v, i), wanted, 2e-3, 0);
     }
+}
+
+TEST_CASE("the balance of a resistance and its spring is exact to rounding, wherever it lies") {
+  Random random(1);
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, random.uniform());
+  };
+  for (int k = 0; k < 2000; ++k) {
+    const double yielding = between(1, 1e3), viscous = k % 3 ? between(1, 1e4) : 0;
+    const double pull = between(1e-3, 3e3), spring = between(0.1, 1e6);
+    const double rest = between(1e-8, 1e-2), own = between(1e-3, 1);
+    const auto force_at = [&](double u) {
+      return u * physics_resistance(yielding, viscous, 0, std::sqrt(rest + own * u * u)).value;
+    };
+
+    // The same by halving, until nothing is left between the ends.
+    double low = 0, high = pull / spring;
+    for (int n = 0; n < 200; ++n) {
+      const double u = 0.5 * (low + high);
+      (force_at(u) + spring * u > pull ? high : low) = u;
+    }
+    CAPTURE(k);
+    CHECK_CLOSE(physics_balance(yielding, viscous, 0, pull, spring, rest, own), force_at(low),
+                1e-12, 0);
+  }
 }
 
 TEST_CASE("gap, area and viscosity act on its force as on that of the plate flow") {
