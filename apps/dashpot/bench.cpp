@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bench_family.h"
+#include "bench_in_plant.h"
 #include "campaign.h"
 #include "commands.h"
 #include "console.h"
@@ -21,6 +22,7 @@ struct BenchSettings {
   std::string folder = "dashpot-bench";
   bool list_sequences = false;
   LineSettings line;
+  PlantBenchSettings in_plant;
   double scatter = NAN;  ///< of builds or of a line; NaN: as usual for each
 };
 
@@ -41,7 +43,10 @@ constexpr std::string_view kBenchExample =
     "\n"
     "# A family: two builds of every drawing in a folder, with a fluid of your own:\n"
     "dashpot bench --family drawings/ --builds 2 --fluid my_fluid.yaml --scatter 0.03 "
-    "--levels 0,0.5,1 --output family";
+    "--levels 0,0.5,1 --output family\n"
+    "\n"
+    "# Rides of a car with the damper in it, for 'identify --in' and 'observe':\n"
+    "dashpot bench --in car.yaml --levels 0,1,2 --duration 20 --output rides";
 
 int list_sequences(Console& console) {
   if (console.json)
@@ -82,6 +87,8 @@ int run_family(const BenchSettings& settings, Console& console) {
 
 int run_bench(BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+  if (!settings.in_plant.plant.empty())
+    return record_in_plant(settings.in_plant, settings.campaign, settings.folder, console);
 
   // One option for what scatters, builds of drawings or dampers of a line.
   if (std::isfinite(settings.scatter))
@@ -157,6 +164,7 @@ Command bench_command() {
        .value = "SHARE",
        .minimum = 0,
        .default_text = "0.03 for builds, 0.02 over a line"});
+  append(command.options, plant_bench_options(settings->in_plant));
   command.options.push_back(
       {.names = "--sequences",
        .target = &settings->list_sequences,

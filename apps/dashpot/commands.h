@@ -7,6 +7,7 @@ namespace dashpot::cli {
 
 Command identify_command();
 Command identify_many_command();
+Command observe_command();
 Command rank_command();
 Command search_command();
 Command evaluate_command();

@@ -9,7 +9,6 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_list.h"
-#include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "document_text.h"
 
@@ -293,6 +292,7 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
   // All that can be wrong is found before the work.
   require_meaning(settings);
   const InPlantSetup setup = read_in_plant_setup(words);
+  require_measured(setup);
   const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);
   std::vector<PlantRecording> recordings;
   for (const std::string& path : settings.data.paths)
@@ -313,13 +313,17 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
   print_document(document, console);
   for (const InPlantFit& one : fits)
     for (const std::string& warning : one.report.warnings) console.warn(one.law + ": " + warning);
-  const fs::path folder = settings.results.folder, models = folder / "models";
+  const fs::path folder = settings.results.folder, models = folder / "models",
+                 plants = folder / "plants";
   for (const InPlantFit& one : fits)
-    if (one.report.model)
+    if (one.report.model) {
       save_damper(one, setup, settings.data.paths, recordings.front().sample_time, models, console);
+      write_file(plants / (one.law + ".json"), format_json(to_json(as_found(setup, one.report))));
+    }
   std::string where = "\n";
   if (settings.results.report) where += write_document(document, folder, "report");
-  console.print(where + "Models   " + models.string() + "/\n");
+  console.print(where + "Models   " + models.string() + "/\nPlants   " + plants.string() +
+                "/, as they were found, for 'dashpot observe'\n");
   if (console.json) console.print_json(document_json(document));
   return std::isfinite(fits.front().worst()) ? kDone : kNotUsable;
 }

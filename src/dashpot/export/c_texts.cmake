@@ -5,6 +5,7 @@ file(GLOB DASHPOT_C_TEXTS CONFIGURE_DEPENDS
   ${CMAKE_CURRENT_LIST_DIR}/fmu/texts/*.h ${CMAKE_CURRENT_LIST_DIR}/fmu/texts/*.c
   ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/c_text/*.h
   ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/suspension/control/c_text/*.h
+  ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/suspension/observe/c_text/*.h
   ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/laws/*.h)
 foreach(name fluid_curves magnetic_circuit plate_flow)
   list(APPEND DASHPOT_C_TEXTS ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/physics/${name}.h)

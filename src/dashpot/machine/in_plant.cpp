@@ -271,6 +271,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 const InPlantOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
+  require_measured(setup);
   InPlantReport report;
 
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit

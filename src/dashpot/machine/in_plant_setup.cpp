@@ -64,6 +64,9 @@ void require_setup(const InPlantSetup& setup) {
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) {
     inputs.push_back(input.place);
+    if (input.road && plant.struts[setup.strut].track)
+      throw Error(where, "the damper stands on a ground that nothing measures",
+                  "a channel with the ground's height");
     if (input.place.kind == PlantInput::Force && input.place.coordinate >= plant.size())
       throw Error(where + ", " + input.channel, "pushes a coordinate that is not there");
     for (const PlantSensor& sensor : setup.sensors)
@@ -80,6 +83,14 @@ void require_setup(const InPlantSetup& setup) {
                 "a share of the time from 0 to below 0.9");
   if (!(setup.skip >= 0))
     throw Error(where + ", skip", "is " + format_number(setup.skip), "0 s or more");
+}
+
+void require_measured(const InPlantSetup& setup) {
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.road)
+      throw Error("plant, inputs", "nothing measures the road, from which a damper is identified",
+                  "a channel with its height; 'dashpot observe' does without one once the damper "
+                  "is known");
 }
 
 }  // namespace dashpot

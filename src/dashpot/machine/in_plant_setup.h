@@ -28,9 +28,17 @@ struct PlantUnknown {
   std::optional<double> about;  ///< where the search starts; nothing: from the data or the table
 };
 
+/// A road that nothing measures, as ISO 8608 has it.
+struct RoadPrior {
+  double roughness = 0;  ///< m^3, G_d(n0); 0: unknown
+  double speed = 0;      ///< m/s
+};
+
 struct PlantInputChannel {
-  std::string channel;
+  std::string channel;  ///< empty: nothing measures it, and `road` says what is known of it
   PlantInputPlace place;
+  double noise = 0;  ///< standard deviation of what it measures, SI; 0: taken as exact
+  std::optional<RoadPrior> road = {};
 };
 
 struct PlantSensor {
@@ -63,6 +71,8 @@ struct InPlantSetup {
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
+/// Throws Error where an input has no channel: an identification needs all of them.
+void require_measured(const InPlantSetup& setup);
 
 struct InPlantOptions {
   std::vector<ParameterChoice> choices;  ///< of the law, as on the bench

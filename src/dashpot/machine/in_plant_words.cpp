@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
+#include "dashpot/suspension/ground/road_profile.h"
 #include "dashpot/value.h"
 
 namespace dashpot {
@@ -17,6 +18,11 @@ namespace {
 constexpr std::array kInputWords = {
     std::pair{"force", PlantInput::Force}, std::pair{"ground", PlantInput::Ground},
     std::pair{"ground_acceleration", PlantInput::GroundAcceleration}};
+
+std::string_view unit_of_input(PlantInput input) {
+  constexpr std::array kUnits{"N", "m", "m/s^2"};  // in the order of PlantInput
+  return kUnits[static_cast<std::size_t>(input)];
+}
 
 struct QuantityWord {
   std::string_view word;
@@ -209,12 +215,35 @@ void read_parameters(InPlantSetup& setup, const Value& parameters) {
   }
 }
 
+/// The noise of a sensor or an input.
+double read_noise(ObjectReader& reader, std::string_view unit) {
+  const Value* noise = reader.optional("noise");
+  if (!noise) return 0;
+  const double deviation = read_quantity(*noise, unit);
+  if (deviation <= 0) throw Error(noise->where(), "is not above 0", "leave it out if unknown");
+  return deviation;
+}
+
+/// A road without a channel: its class, or that it is unknown, and the speed.
+RoadPrior read_road(ObjectReader& reader, const std::string& kind, const Value& value) {
+  if (kind != "ground")
+    throw Error(value.where(), "has no channel", "only a road may be without: kind: ground");
+  RoadPrior road;
+  const std::string word = reader.string("class");
+  if (word != "unknown") road.roughness = road_roughness(word.size() == 1 ? word.front() : '?');
+  road.speed = read_quantity(reader.required("speed"), "m/s");
+  if (!(road.speed > 0)) throw Error(value.where(), "its speed is not above 0");
+  return road;
+}
+
 PlantInputChannel read_input(const Value& value, const Plant& plant) {
   ObjectReader reader(value, "an input");
-  PlantInputChannel input{.channel = reader.string("channel"), .place = {}};
+  PlantInputChannel input{.channel = reader.string("channel", ""), .place = {}};
   const std::string kind = reader.string("kind"), at = reader.string("at", "");
-  reader.finish();
   const PlantInput* known = find_input(kind);
+  if (input.channel.empty()) input.road = read_road(reader, kind, value);
+  if (known && !input.road) input.noise = read_noise(reader, unit_of_input(*known));
+  reader.finish();
   if (!known)
     throw Error(value.where(), "unknown kind of input '" + kind + "'",
                 suggest(kind, input_words()));
@@ -238,10 +267,7 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
     sensor.place.coordinate = coordinate_named(plant, at, value.where());
   else if (!at.empty())
     throw Error(value.where(), word + " is the damper's", "leave out 'at'");
-  if (const Value* noise = reader.optional("noise")) {
-    sensor.noise = read_quantity(*noise, known->unit);
-    if (sensor.noise <= 0) throw Error(noise->where(), "is not above 0", "leave it out if unknown");
-  }
+  sensor.noise = read_noise(reader, known->unit);
   if (const Value* delay = reader.optional("delay")) {
     sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
     if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
@@ -297,6 +323,79 @@ InPlantSetup read_in_plant_setup(const std::string& words) {
   InPlantSetup setup = from_words(words);
   require_stated(setup, "--in");
   require_setup(setup);
+  return setup;
+}
+
+Value to_json(const InPlantSetup& setup) {
+  // What is known of the plant, and what is not.
+  Value parameters = Value::object();
+  for (const auto& [name, value] : setup.known) parameters.add(name, value);
+  for (const PlantUnknown& unknown : setup.unknown) {
+    Value range = Value::object();
+    range.add("from", unknown.lower);
+    range.add("to", unknown.upper);
+    if (unknown.about) range.add("about", *unknown.about);
+    parameters.add(unknown.name, std::move(range));
+  }
+  const Plant plant = make_plant(*setup.model, setup.known);
+
+  // What moves it.
+  Value inputs = Value::array();
+  for (const PlantInputChannel& input : setup.inputs) {
+    Value one = Value::object();
+    if (!input.road) one.add("channel", input.channel);
+    one.add("kind", kInputWords[static_cast<std::size_t>(input.place.kind)].first);
+    if (input.place.kind == PlantInput::Force)
+      one.add("at", plant.coordinates[input.place.coordinate].name);
+    if (input.noise > 0) one.add("noise", input.noise);
+    if (input.road) {
+      std::string road_class = "unknown";
+      for (char letter = 'A'; letter <= 'H'; ++letter)
+        if (input.road->roughness == road_roughness(letter)) road_class = letter;
+      one.add("class", road_class);
+      one.add("speed", input.road->speed);
+    }
+    inputs.push_back(std::move(one));
+  }
+
+  // What was measured on it, and what drives the damper.
+  Value sensors = Value::array();
+  for (const PlantSensor& sensor : setup.sensors) {
+    const QuantityWord& word = kQuantityWords[static_cast<std::size_t>(sensor.place.quantity)];
+    Value one = Value::object();
+    one.add("channel", sensor.channel);
+    one.add("quantity", word.word);
+    if (word.of_coordinate) one.add("at", plant.coordinates[sensor.place.coordinate].name);
+    if (sensor.noise > 0) one.add("noise", sensor.noise);
+    if (sensor.finds_delay)
+      one.add("delay", "unknown");
+    else if (sensor.delay != 0)
+      one.add("delay", sensor.delay);
+    sensors.push_back(std::move(one));
+  }
+  Value file = Value::object({{"plant", setup.model->name},
+                              {"parameters", std::move(parameters)},
+                              {"inputs", std::move(inputs)},
+                              {"sensors", std::move(sensors)}});
+  if (setup.drive_unit != DriveUnit::None) {
+    const std::string key = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current";
+    file.add(key, setup.drive.empty() ? Value(setup.level) : Value(setup.drive));
+  }
+  file.add("start", setup.from_rest ? "rest" : "unknown");
+  file.add("held_back", setup.held_back);
+  file.add("skip", setup.skip);
+  return file;
+}
+
+InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
+  for (const FittedParameter& p : report.plant) setup.known.emplace_back(p.name, p.value);
+  setup.unknown.clear();
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    PlantSensor& sensor = setup.sensors[s];
+    for (const FittedParameter& p : report.nuisances)
+      if (sensor.finds_delay && p.name == "delay of " + sensor.channel) sensor.delay = p.value;
+    sensor.finds_delay = false;
+  }
   return setup;
 }
 

@@ -2,7 +2,8 @@
 #include <string>
 #include <string_view>
 
-#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/in_plant.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 
@@ -20,5 +21,11 @@ namespace dashpot {
 InPlantSetup read_in_plant_setup(const std::string& words);
 /// The same from the text of such a file; `source` stands in messages.
 InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& source);
+
+/// The same setup as such a file holds it, in SI.
+Value to_json(const InPlantSetup& setup);
+/// The setup with what an identification has found in place of what was unknown: the plant's
+/// numbers and the sensors' delays.
+InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report);
 
 }  // namespace dashpot

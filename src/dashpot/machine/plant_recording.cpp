@@ -74,7 +74,8 @@ const Channel& PlantRecording::channel(std::string_view wanted) const {
 }
 
 PlantRecording read_plant_recording(const std::filesystem::path& path,
-                                    const std::vector<std::string>& wanted) {
+                                    const std::vector<std::string>& wanted,
+                                    const std::vector<std::string>& also) {
   // One table per file.
   std::vector<RawTable> tables = read_tables(path);
   if (tables.size() != 1)
@@ -102,7 +103,9 @@ PlantRecording read_plant_recording(const std::filesystem::path& path,
   // The channels that are asked for, in SI.
   for (RawColumn& column : table.columns) {
     const auto [name, unit] = name_and_unit(column);
-    if (std::ranges::find(wanted, name) == wanted.end()) continue;
+    if (std::ranges::find(wanted, name) == wanted.end() &&
+        std::ranges::find(also, name) == also.end())
+      continue;
     require_numbers(table, column);
     const std::string where = table.file + ", column '" + column.name + "'";
     Channel channel{.name = name, .unit = "SI", .samples = std::move(column.values), .origin = {}};

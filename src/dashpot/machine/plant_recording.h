@@ -24,8 +24,9 @@ struct PlantRecording {
 /// "excitation [N]" or "excitation (N)"; one without a unit is taken as SI and says so in its
 /// origin. Time comes from a column "time" or "t", in s unless it says else. Throws Error on a file
 /// of several tables, on stamps that are not uniform, and, where a column is used (`wanted`), on
-/// a cell that is no number or a column that is not there.
+/// a cell that is no number or a column that is not there; columns of `also` may be missing.
 PlantRecording read_plant_recording(const std::filesystem::path& path,
-                                    const std::vector<std::string>& wanted);
+                                    const std::vector<std::string>& wanted,
+                                    const std::vector<std::string>& also = {});
 
 }  // namespace dashpot

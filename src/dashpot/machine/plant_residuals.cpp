@@ -31,23 +31,6 @@ bool is_constant(std::span<const double> samples) {
   return high - low <= 1e-12 * std::max(std::abs(low), std::abs(high));
 }
 
-/// The unit of what a sensor of this quantity shows.
-std::string unit_of(PlantQuantity quantity) {
-  switch (quantity) {
-    case PlantQuantity::Displacement:
-    case PlantQuantity::Deflection:
-      return "m";
-    case PlantQuantity::Velocity:
-    case PlantQuantity::DeflectionVelocity:
-      return "m/s";
-    case PlantQuantity::Acceleration:
-      return "m/s^2";
-    case PlantQuantity::DamperForce:
-      break;
-  }
-  return "N";
-}
-
 }  // namespace
 
 PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,

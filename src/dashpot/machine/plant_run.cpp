@@ -30,6 +30,22 @@ void require_linear(const Plant& plant) {
 
 }  // namespace
 
+std::string unit_of(PlantQuantity quantity) {
+  switch (quantity) {
+    case PlantQuantity::Displacement:
+    case PlantQuantity::Deflection:
+      return "m";
+    case PlantQuantity::Velocity:
+    case PlantQuantity::DeflectionVelocity:
+      return "m/s";
+    case PlantQuantity::Acceleration:
+      return "m/s^2";
+    case PlantQuantity::DamperForce:
+      break;
+  }
+  return "N";
+}
+
 DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
                          std::span<const PlantInputPlace> inputs)
     : size_(plant.size()) {

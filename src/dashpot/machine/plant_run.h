@@ -35,6 +35,9 @@ enum class PlantQuantity {
   DamperForce          ///< N, positive where it resists extension
 };
 
+/// The unit of what a sensor of this quantity shows.
+std::string unit_of(PlantQuantity quantity);
+
 /// A sensor's quantity and, where it is one of a coordinate, which.
 struct PlantSensorPlace {
   PlantQuantity quantity = PlantQuantity::Displacement;
@@ -71,6 +74,19 @@ class DrivenPlant {
   /// Stiffness along the damper's way, N/m: of the plant alone; and the mass that it moves, kg.
   double stiffness_along() const;
   double mass_along() const { return 1 / along(row_, by_force_.data()); }
+
+  // The numbers themselves, for whoever solves the equations in another way. Matrices are n x n,
+  // by the inverse of the mass.
+  const std::vector<double>& damping() const { return damping_; }
+  const std::vector<double>& stiffness() const { return stiffness_; }
+  const std::vector<double>& by_force() const { return by_force_; }  ///< of the damper's, n
+  const std::vector<double>& deflection() const { return row_; }     ///< of the damper, n
+  /// Per input what it pushes by its value and by its rate, and what it adds to an absolute
+  /// acceleration, n each; and what it takes from the deflection.
+  const std::vector<std::vector<double>>& by_value() const { return by_value_; }
+  const std::vector<std::vector<double>>& by_rate() const { return by_rate_; }
+  const std::vector<std::vector<double>>& carried() const { return carried_; }
+  const std::vector<double>& on_ground() const { return on_ground_; }
 
  private:
   double rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,

@@ -1,0 +1,185 @@
+#include "bench_in_plant.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/record/record_file.h"
+#include "dashpot/report/provenance.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> grade_names() {
+  std::vector<std::string> names;
+  for (const SensorGrade& grade : sensor_grades()) names.push_back(grade.name);
+  return names;
+}
+
+/// The setup as it truly is: stated values in place of unknown ones, else those of the plant's
+/// table.
+InPlantSetup true_setup(InPlantSetup setup, const PlantBenchSettings& settings) {
+  const auto& rows = setup.model->parameters;
+  NamedValues stated;
+  for (const std::string& word : settings.truth) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos)
+      throw UsageError("--true", "'" + word + "' has no '='", "sprung_mass=387kg");
+    const std::string name = word.substr(0, equals);
+    const ParameterRow& row = rows[row_named(rows, name, setup.model->name, "--true")];
+    if (std::ranges::find(setup.unknown, name, &PlantUnknown::name) == setup.unknown.end())
+      throw UsageError("--true", name + " is known: the plant states it", "unknown ones only");
+    stated.emplace_back(name, parse_value(row, word.substr(equals + 1), "--true"));
+  }
+  for (const PlantUnknown& unknown : setup.unknown) {
+    const auto own = std::ranges::find(stated, unknown.name, &NamedValues::value_type::first);
+    const double value =
+        own != stated.end()
+            ? own->second
+            : rows[row_named(rows, unknown.name, setup.model->name, "--true")].value;
+    if (value < unknown.lower || value > unknown.upper)
+      throw UsageError("--true",
+                       unknown.name + " would be " + format_number(value) + ", outside its range",
+                       "--true " + unknown.name + "=...");
+    setup.known.emplace_back(unknown.name, value);
+  }
+  setup.unknown.clear();
+
+  // A delay that is to be found is one of a sample or so.
+  constexpr double kUsualDelay = 2e-3;  // s
+  for (PlantSensor& sensor : setup.sensors)
+    if (sensor.finds_delay && sensor.delay == 0) sensor.delay = kUsualDelay;
+  for (PlantSensor& sensor : setup.sensors) sensor.finds_delay = false;
+  return setup;
+}
+
+/// The road under the plant: as asked for, or as the plant's file says of one that nothing
+/// measures.
+std::string road_of(const InPlantSetup& setup, const PlantBenchSettings& settings) {
+  if (!settings.road.empty()) return settings.road;
+  for (const PlantInputChannel& input : setup.inputs) {
+    if (input.place.kind != PlantInput::Ground) continue;
+    if (!input.road || input.road->roughness == 0) return "iso8608,class=C,speed=20m/s";
+    return "iso8608,roughness=" + format_exact(input.road->roughness) +
+           ",speed=" + format_exact(input.road->speed) + "m/s";
+  }
+  return "";
+}
+
+/// The levels of the rides: as asked for, else the damper's own or three over its range; where no
+/// channel shows the drive, the one that the plant states.
+std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings& campaign,
+                              const ParameterSet& damper) {
+  const std::vector<double> stated = stated_levels(campaign);
+  if (setup.drive.empty()) {
+    if (!stated.empty())
+      throw UsageError("--levels", "no channel of the plant shows the drive",
+                       "'current' or 'voltage' of the plant as the name of a channel");
+    return {setup.level};
+  }
+  if (!stated.empty()) return stated;
+  if (!damper.drive_levels.empty()) return damper.drive_levels;
+  return {damper.drive_min, 0.5 * (damper.drive_min + damper.drive_max), damper.drive_max};
+}
+
+}  // namespace
+
+std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
+  return {{.names = "--in",
+           .target = &settings.plant,
+           .help = "instead of a bench: rides of a plant with the damper in it, as its sensors "
+                   "record them, a ride per level, and the truth beside them (docs/in-plant.md)",
+           .value = "PLANT",
+           .takes = Takes::File},
+          {.names = "--true",
+           .target = &settings.truth,
+           .help = "with --in: true values of what the plant calls unknown, as sprung_mass=350kg",
+           .value = "LIST",
+           .default_text = "those of the plant's table"},
+          {.names = "--road",
+           .target = &settings.road,
+           .help = "with --in: the road (simulate --list roads)",
+           .value = "WORDS",
+           .default_text = "of class C at 20 m/s, or as the plant says"},
+          {.names = "--push",
+           .target = &settings.push,
+           .help = "with --in: rms of the random force, N, or ground acceleration, m/s^2, that "
+                   "moves a plant without a road",
+           .value = "RMS",
+           .minimum = 0,
+           .default_text = "0.3 N per kg, or 1 m/s^2"},
+          {.names = "--duration",
+           .target = &settings.duration,
+           .help = "with --in: of each ride, s",
+           .value = "S",
+           .minimum = 1},
+          {.names = "--grade",
+           .target = &settings.grade,
+           .help = "with --in: of sensors whose noise is not stated",
+           .value = "NAME",
+           .choices = grade_names(),
+           .noun = "grade"}};
+}
+
+int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& campaign,
+                    const std::string& folder, Console& console) {
+  // What the plant truly is, and the damper in it.
+  const CampaignSettings usual;
+  if (campaign.motions != usual.motions || !campaign.motion.empty() || !campaign.drive.empty() ||
+      !campaign.experiment.empty())
+    throw UsageError("--in", "a plant is moved by its road or a force, not by motions of a bench",
+                     "leave --motions, --motion, --drive and --experiment out");
+  const InPlantSetup asked = read_in_plant_setup(settings.plant);
+  const InPlantSetup setup =
+      with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));
+  const ParameterSet damper = load_parameter_set(campaign.damper);
+  if (setup.drive_unit != DriveUnit::None && setup.drive_unit != damper.model.drive_unit())
+    throw Error(campaign.damper, "takes " + to_string(damper.model.drive_unit()) +
+                                     ", and the plant states " + to_string(setup.drive_unit));
+  const VirtualCampaignOptions options{
+      .duration = settings.duration,
+      .sample_rate = campaign.sample_rate > 0 ? campaign.sample_rate : 500,
+      .levels = levels_of(setup, campaign, damper),
+      .road = road_of(setup, settings),
+      .push = settings.push,
+      .seed = campaign.bench.seed,
+      .monitor = console.monitor()};
+  const std::vector<VirtualRide> rides = virtual_campaign(setup, damper.model, options);
+
+  // All rides before the first file.
+  Value list = Value::array();
+  for (const VirtualRide& ride : rides) {
+    const fs::path path = fs::path(folder) / (ride.recorded.name + ".csv");
+    save_csv(ride.recorded, path);
+    save_csv(ride.truth, fs::path(folder) / "truth" / path.filename());
+    list.push_back(path.string());
+  }
+  const fs::path plant = fs::path(folder) / "truth" / "plant.json";
+  write_file(plant, format_json(to_json(setup)));
+  console.talk(damper.damper + "; " + damper.source + '\n');
+  if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
+  std::string levels;
+  for (const double level : options.levels)
+    levels += (levels.empty() ? "" : ", ") + format_number(level);
+  console.print(std::to_string(rides.size()) + " rides of the " + std::string(setup.model->name) +
+                ", " + format_number(options.duration) + " s each, at " + levels + ' ' +
+                to_string(damper.model.drive_unit()) +
+                (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
+                "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +
+                plant.string() + ", as it truly is\nNext        dashpot identify " +
+                shell_quoted(folder) + "/ride_*.csv --in " + shell_quoted(settings.plant) +
+                " --models tanh_kwok\n");
+  if (console.json)
+    console.print_json(
+        Value::object({{"folder", folder}, {"rides", std::move(list)}, {"plant", plant.string()}}));
+  return kDone;
+}
+
+}  // namespace dashpot::cli

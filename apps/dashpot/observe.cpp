@@ -1,0 +1,473 @@
+#include "dashpot/machine/observe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "console.h"
+#include "damper_choice.h"
+#include "dashpot/base/date.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/record/record_file.h"
+#include "document_text.h"
+#include "observe_options.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ObserveSettings {
+  std::string model, plant, truth, folder = "dashpot-observed";
+  std::vector<std::string> recordings;
+  std::vector<std::string> force_errors;
+  double level = 90;
+  int steps = 0, threads = 0;
+  bool causal = false;
+};
+
+constexpr std::string_view kObserveExample =
+    "# The damper, found in a car whose road was measured; then its force on drives without\n"
+    "# sensors of force or road (in city.yaml the road has no channel, but a class and a speed):\n"
+    "dashpot identify drive.csv --in car.yaml --models tanh_kwok --output results\n"
+    "dashpot observe results/models/tanh_kwok.json --in city.yaml city.csv --output city\n"
+    "\n"
+    "# What an ECU would know at each instant, without the future:\n"
+    "dashpot observe results/models/tanh_kwok.json --in city.yaml city.csv --causal\n"
+    "\n"
+    "# A virtual campaign, judged by its truth:\n"
+    "dashpot bench --in car.yaml --output rides\n"
+    "dashpot observe model.json --in car.yaml rides/ride_1.csv --truth rides/truth";
+
+/// Where the truth is known: how far the estimates are from it.
+struct TruthFigure {
+  std::string recording, quantity, unit;
+  double error = 0, span = 0;  ///< rms; largest less least of the truth
+  double inside = 0;           ///< share of the samples within the band
+};
+
+/// Millimetres for people.
+double factor_of(const std::string& unit) { return unit == "m" || unit == "m/s" ? 1000 : 1; }
+std::string shown_unit(const std::string& unit) {
+  return unit == "m" || unit == "m/s" ? "m" + unit : unit;
+}
+
+/// The estimates over time as a record: each quantity with half the width of its band.
+Record record_of(const ObservedRecording& observed) {
+  Record record;
+  record.name = observed.name;
+  record.sample_time = observed.sample_time;
+  for (std::size_t k = 0; k < observed.quantities.front().value.size(); ++k)
+    record.time.push_back(observed.sample_time * static_cast<double>(k));
+  for (const ObservedQuantity& q : observed.quantities) {
+    record.channels.push_back({.name = q.name, .unit = q.unit, .samples = q.value, .origin = {}});
+    record.channels.push_back(
+        {.name = q.name + "_half_band", .unit = q.unit, .samples = q.half, .origin = {}});
+  }
+  return record;
+}
+
+/// The first second, in which the filter settles, does not count.
+std::vector<TruthFigure> truth_figures(const ObservedRecording& observed,
+                                       const PlantRecording& truth) {
+  const std::size_t count = observed.quantities.front().value.size(),
+                    first = std::min(count / 2, static_cast<std::size_t>(1 / observed.sample_time));
+  if (truth.samples != count)
+    throw Error(truth.name,
+                "has " + std::to_string(truth.samples) + " samples, and " + observed.name + " " +
+                    std::to_string(count),
+                "the truth of the same recording");
+  std::vector<TruthFigure> figures;
+  for (const ObservedQuantity& q : observed.quantities) {
+    const auto channel = std::ranges::find(truth.channels, q.name, &Channel::name);
+    if (channel == truth.channels.end()) continue;
+    TruthFigure figure{.recording = observed.name, .quantity = q.name, .unit = q.unit};
+    double low = INFINITY, high = -INFINITY, square = 0, inside = 0;
+    for (std::size_t k = first; k < count; ++k) {
+      const double error = q.value[k] - channel->samples[k];
+      square += error * error;
+      inside += std::abs(error) <= q.half[k];
+      low = std::min(low, channel->samples[k]);
+      high = std::max(high, channel->samples[k]);
+    }
+    const auto samples = static_cast<double>(count - first);
+    figure.error = std::sqrt(square / samples);
+    figure.span = high - low;
+    figure.inside = inside / samples;
+    figures.push_back(figure);
+  }
+  return figures;
+}
+
+std::vector<TruthFigure> compared(const ObserveSettings& settings, const ObserveReport& report) {
+  std::vector<TruthFigure> all;
+  if (settings.truth.empty()) return all;
+  for (const ObservedRecording& observed : report.recordings) {
+    const fs::path path = fs::is_directory(settings.truth)
+                              ? fs::path(settings.truth) / observed.name
+                              : fs::path(settings.truth);
+    std::vector<std::string> names;
+    for (const ObservedQuantity& q : observed.quantities) names.push_back(q.name);
+    const std::vector<TruthFigure> figures =
+        truth_figures(observed, read_plant_recording(path, {"damper_force"}, names));
+    all.insert(all.end(), figures.begin(), figures.end());
+  }
+  return all;
+}
+
+DocumentTable truth_table(const std::vector<TruthFigure>& figures, double level) {
+  DocumentTable table{.title = "Against the truth",
+                      .columns = {{"recording"},
+                                  {"quantity"},
+                                  {"unit"},
+                                  {"rms error", true},
+                                  {"% of span", true},
+                                  {"in band %", true}},
+                      .rows = {}};
+  for (const TruthFigure& f : figures)
+    table.rows.push_back(
+        {f.recording, f.quantity, shown_unit(f.unit), format_number(factor_of(f.unit) * f.error, 3),
+         format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3)});
+  table.note = fmt::format("The bands claim {} %. The first second does not count.",
+                           format_number(level, 3));
+  return table;
+}
+
+DocumentTable quantity_table(const ObserveReport& report, double level) {
+  DocumentTable table{.title = "Estimates",
+                      .columns = {{"recording"},
+                                  {"quantity"},
+                                  {"unit"},
+                                  {"least", true},
+                                  {"greatest", true},
+                                  {"half band, mean", true}},
+                      .rows = {}};
+  for (const ObservedRecording& one : report.recordings)
+    for (const ObservedQuantity& q : one.quantities) {
+      const double factor = factor_of(q.unit);
+      const auto [low, high] = std::ranges::minmax(q.value);
+      double half = 0;
+      for (const double width : q.half) half += width / static_cast<double>(q.half.size());
+      table.rows.push_back({one.name, q.name, shown_unit(q.unit), format_number(factor * low, 3),
+                            format_number(factor * high, 3), format_number(factor * half, 3)});
+    }
+  table.note = fmt::format("Each band is to hold {} % of the time.", format_number(level, 3));
+  return table;
+}
+
+DocumentTable observed_sensors(const ObserveReport& report, double level) {
+  DocumentTable table{.title = "Sensors, one sample ahead",
+                      .columns = {{"recording"},
+                                  {"sensor"},
+                                  {"unit"},
+                                  {"rms of signal", true},
+                                  {"unexpected, rms", true},
+                                  {"in band %", true},
+                                  {"offset", true, 1}},
+                      .rows = {}};
+  for (const ObservedRecording& one : report.recordings)
+    for (const ObservedSensor& s : one.sensors)
+      table.rows.push_back({one.name, s.channel, s.unit, format_number(s.rms, 3),
+                            format_number(s.surprise, 3), format_number(100 * s.inside, 3),
+                            format_number(s.offset, 2)});
+  table.note = fmt::format(
+      "What a sensor showed beyond what the samples before had led to expect; {} % of it is to lie "
+      "within its band.",
+      format_number(level, 3));
+  return table;
+}
+
+/// What was taken as uncertain, in words that the plant's file and the options understand.
+std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantSetup& setup) {
+  std::vector<std::string> lines;
+  std::string errors, words;
+  for (const ForceError& one : report.noise.force) {
+    const std::string deviation = format_number(one.deviation, 3),
+                      memory = format_number(one.memory, 3);
+    errors += (errors.empty() ? "" : " and ") + deviation + " N, forgotten in " + memory + " s";
+    words += (words.empty() ? "" : ",") + deviation + "@" + memory;
+  }
+  lines.push_back("Errors of the model's force: " + errors + " (--force-error " + words + ").");
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    lines.push_back(fmt::format("Noise of {}: {} {}{}.", setup.sensors[s].channel,
+                                format_number(report.noise.sensors[s], 3),
+                                unit_of(setup.sensors[s].place.quantity),
+                                setup.sensors[s].noise > 0 ? ", as stated" : ", found"));
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.road)
+      lines.push_back(fmt::format("Road, not measured: G_d(n0) {} m^3 at {} m/s{}.",
+                                  format_number(report.noise.roughness, 3),
+                                  format_number(input.road->speed, 3),
+                                  input.road->roughness > 0 ? ", as its class says" : ", found"));
+  lines.push_back(fmt::format("{} steps of the filter per sample.", report.steps));
+  return lines;
+}
+
+/// The force and the motion of the first recording with their bands, and the truth behind.
+DocumentFigure observed_figure(const ObserveReport& report, const ObserveSettings& settings,
+                               Document& document) {
+  constexpr std::size_t kMostShown = 3000;
+  const ObservedRecording& one = report.recordings.front();
+  DocumentFigure figure{
+      .name = "observed",
+      .title = "Estimates with their bands",
+      .caption = fmt::format("{}, its first {} samples at most.", one.name, kMostShown),
+      .panels = {}};
+  const std::size_t count = std::min(kMostShown, one.quantities.front().value.size());
+  const auto keep = [&](const std::vector<double>& samples, double factor) {
+    std::vector<double> some(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count));
+    for (double& value : some) value *= factor;
+    document.samples.push_back({.values = std::move(some)});
+    return document.samples.size() - 1;
+  };
+  std::vector<double> time;
+  for (std::size_t k = 0; k < count; ++k) time.push_back(one.sample_time * static_cast<double>(k));
+  const std::size_t at = keep(time, 1);
+  std::optional<PlantRecording> truth;
+  if (!settings.truth.empty()) {
+    std::vector<std::string> names;
+    for (const ObservedQuantity& q : one.quantities) names.push_back(q.name);
+    truth =
+        read_plant_recording(fs::is_directory(settings.truth) ? fs::path(settings.truth) / one.name
+                                                              : fs::path(settings.truth),
+                             {"damper_force"}, names);
+  }
+  for (const ObservedQuantity& q : one.quantities) {
+    const double factor = factor_of(q.unit);
+    FigurePanel panel{.title = q.name,
+                      .x_label = "time, s",
+                      .y_label = q.name + ", " + shown_unit(q.unit),
+                      .series = {},
+                      .reads_along_x = true};
+    const std::size_t value = keep(q.value, factor), half = keep(q.half, factor);
+    panel.series.push_back({.label = format_number(settings.level, 3) + " % band",
+                            .colour = "modelled",
+                            .x = {},
+                            .y = {},
+                            .mark = FigureSeries::Mark::Area,
+                            .is_read = false,
+                            .opacity = 0.2,
+                            .shared = SharedCurve{.x = at, .y = value, .half_width = half}});
+    if (truth)
+      if (const auto channel = std::ranges::find(truth->channels, q.name, &Channel::name);
+          channel != truth->channels.end())
+        panel.series.push_back(
+            {.label = "truth",
+             .colour = "measured",
+             .x = {},
+             .y = {},
+             .shared = SharedCurve{.x = at, .y = keep(channel->samples, factor)}});
+    panel.series.push_back({.label = "estimate",
+                            .colour = "modelled",
+                            .x = {},
+                            .y = {},
+                            .shared = SharedCurve{.x = at, .y = value}});
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+Value json_of(const ObserveReport& report, const std::vector<TruthFigure>& truth,
+              const InPlantSetup& setup) {
+  Value recordings = Value::array(), against = Value::array();
+  for (const ObservedRecording& one : report.recordings) {
+    Value sensors = Value::array(), quantities = Value::array();
+    for (const ObservedSensor& s : one.sensors)
+      sensors.push_back(Value::object({{"sensor", s.channel},
+                                       {"unit", s.unit},
+                                       {"rms", s.rms},
+                                       {"unexpected", s.surprise},
+                                       {"inside", s.inside},
+                                       {"offset", s.offset}}));
+    for (const ObservedQuantity& q : one.quantities) {
+      double half = 0;
+      for (const double width : q.half) half += width / static_cast<double>(q.half.size());
+      quantities.push_back(
+          Value::object({{"name", q.name}, {"unit", q.unit}, {"half_band_mean", half}}));
+    }
+    recordings.push_back(Value::object({{"name", one.name},
+                                        {"quantities", std::move(quantities)},
+                                        {"sensors", std::move(sensors)}}));
+  }
+  Value errors = Value::array();
+  for (const ForceError& one : report.noise.force)
+    errors.push_back(Value::object({{"deviation_N", one.deviation}, {"memory_s", one.memory}}));
+  for (const TruthFigure& f : truth)
+    against.push_back(Value::object({{"recording", f.recording},
+                                     {"quantity", f.quantity},
+                                     {"unit", f.unit},
+                                     {"error", f.error},
+                                     {"span", f.span},
+                                     {"inside", f.inside}}));
+  return Value::object({{"plant", setup.model->name},
+                        {"force_errors", std::move(errors)},
+                        {"sensor_noise", Value::array(report.noise.sensors)},
+                        {"roughness_m3", report.noise.roughness},
+                        {"steps_per_sample", report.steps},
+                        {"cpu_seconds", report.seconds},
+                        {"recordings", std::move(recordings)},
+                        {"truth", std::move(against)},
+                        {"warnings", Value::array(report.warnings)}});
+}
+
+Document observe_document(const ObserveReport& report, const std::vector<TruthFigure>& truth,
+                          const InPlantSetup& setup, const ObserveSettings& settings,
+                          const std::string& damper, const Console& console) {
+  Document document{.title = "A plant observed through its damper's model",
+                    .subtitle = std::string(setup.model->title),
+                    .verdict = {},
+                    .sections = {},
+                    .command = console.command_line(),
+                    .version = DASHPOT_VERSION,
+                    .date = date_now(),
+                    .kind = "observation"};
+
+  // The force in one sentence: how sure it is, and where known how wrong.
+  const ObservedQuantity& force = report.recordings.front().quantities.front();
+  double half = 0;
+  for (const double width : force.half) half += width / static_cast<double>(force.half.size());
+  document.verdict =
+      fmt::format("The force of the damper ({}) is known within +-{} N ({} % of the time), {}.",
+                  damper, format_number(half, 3), format_number(settings.level, 3),
+                  settings.causal ? "from the past alone" : "from the whole recording");
+  for (const TruthFigure& f : truth)
+    if (f.quantity == "damper_force" && f.recording == report.recordings.front().name)
+      document.verdict += fmt::format(
+          " It is {} % of its span from the truth (rms), which lies in the band {} % of "
+          "the time.",
+          format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3));
+
+  DocumentSection section{.name = "observed", .title = "Observed", .paragraphs = {}};
+  if (!truth.empty()) section.tables.push_back(truth_table(truth, settings.level));
+  section.tables.push_back(quantity_table(report, settings.level));
+  section.tables.push_back(observed_sensors(report, settings.level));
+  section.figures = {observed_figure(report, settings, document)};
+  section.lists = {{.title = report.noise_was_found
+                                 ? "Uncertainties; what was not stated was found as that under "
+                                   "which the recordings are most likely"
+                                 : "Uncertainties",
+                    .lines = noise_lines(report, setup)}};
+  document.sections.push_back(std::move(section));
+  document.data = json_of(report, truth, setup);
+  return document;
+}
+
+int run_observe(const ObserveSettings& settings, Console& console) {
+  // All that can be wrong is found before the work.
+  if (settings.plant.empty())
+    throw UsageError("--in", "is missing", "the plant and its sensors: docs/in-plant.md");
+  if (settings.recordings.empty()) throw UsageError("RECORDING", "is missing", "a file");
+  if (!(settings.level > 0 && settings.level < 100))
+    throw UsageError("--band", "is not between 0 and 100 %", "90");
+  const InPlantSetup setup = read_in_plant_setup(settings.plant);
+  ModelFile file =
+      load_damper_file({.model = settings.model, .parameters = {}}, "observe", console);
+  if (setup.drive_unit != DriveUnit::None && file.drive_unit != DriveUnit::None &&
+      setup.drive_unit != file.drive_unit)
+    throw Error(settings.model, "takes " + to_string(file.drive_unit) + ", and the plant states " +
+                                    to_string(setup.drive_unit));
+  std::vector<PlantRecording> recordings;
+  for (const std::string& path : settings.recordings)
+    recordings.push_back(read_plant_recording(path, setup.channels()));
+  if (!settings.truth.empty() && recordings.size() > 1 && !fs::is_directory(settings.truth))
+    throw UsageError("--truth", "is one file for several recordings",
+                     "a folder with a file of each recording's name");
+
+  // The work, then what came out of it.
+  const ObserveOptions options{.causal = settings.causal,
+                               .force = force_errors(settings.force_errors),
+                               .steps = settings.steps,
+                               .level = settings.level / 100,
+                               .threads = settings.threads,
+                               .monitor = console.monitor()};
+  const std::string damper = file.model->name();
+  const ObserveReport report = observe(std::shared_ptr<const DamperModel>(std::move(file.model)),
+                                       file.domain, setup, recordings, options);
+  const std::vector<TruthFigure> truth = compared(settings, report);
+  const Document document = observe_document(report, truth, setup, settings, damper, console);
+  print_document(document, console);
+  for (const std::string& line : noise_lines(report, setup)) console.print(line + '\n');
+  for (const std::string& warning : report.warnings) console.warn(warning);
+
+  // Files: the page and the samples.
+  const fs::path folder = settings.folder;
+  std::string where = "\n" + write_document(document, folder, "report");
+  for (const ObservedRecording& one : report.recordings)
+    save_csv(record_of(one), folder / (fs::path(one.name).stem().string() + "_observed.csv"));
+  console.print(where + "Samples  " + (folder / "*_observed.csv").string() + '\n');
+  if (console.json) console.print_json(document_json(document));
+  return kDone;
+}
+
+}  // namespace
+
+Command observe_command() {
+  auto settings = std::make_shared<ObserveSettings>();
+  ObserveSettings& s = *settings;
+  return {
+      .name = "observe",
+      .title = "A damper's force, speeds and road where no sensor shows them",
+      .description =
+          "Follows a plant (a car, a building, an oscillator) through a recording with the model "
+          "of "
+          "its damper, by a Kalman filter and a smoother behind it: the damper's force, which no "
+          "sensor measures, deflections and velocities, and the road where nothing measured it, "
+          "each with a band. The model may be wrong: the error of its force is one of the "
+          "unknowns. How large that is, and the sensors' noise where the plant does not state it, "
+          "is found from the recordings.",
+      .options = {{.names = "MODEL",
+                   .target = &s.model,
+                   .help = "a model file that 'dashpot identify' wrote",
+                   .takes = Takes::File,
+                   .required = true},
+                  {.names = "RECORDING",
+                   .target = &s.recordings,
+                   .help = "recordings of the plant, one table each",
+                   .takes = Takes::File,
+                   .required = true},
+                  {.names = "--in",
+                   .target = &s.plant,
+                   .help =
+                       "the plant with all its numbers known, and its sensors, as a YAML file or "
+                       "words (docs/in-plant.md); 'identify --in' writes what it found into "
+                       "plants/",
+                   .value = "PLANT",
+                   .takes = Takes::File},
+                  {.names = "--causal",
+                   .target = &s.causal,
+                   .help = "each instant from its past alone, as an ECU knows it"},
+                  force_error_option(s.force_errors),
+                  {.names = "--band",
+                   .target = &s.level,
+                   .help = "share of the time that the bands are to hold, %",
+                   .value = "PERCENT",
+                   .minimum = 0},
+                  {.names = "--steps",
+                   .target = &s.steps,
+                   .help = "steps of the filter per sample",
+                   .value = "N",
+                   .minimum = 0,
+                   .default_text = "as many as its error asks for"},
+                  {.names = "--truth",
+                   .target = &s.truth,
+                   .help = "where the truth is known, as of 'dashpot bench --in': its file, or a "
+                           "folder with a file of each recording's name; needs damper_force",
+                   .value = "PATH",
+                   .takes = Takes::File},
+                  {.names = "-o,--output",
+                   .target = &s.folder,
+                   .help = "folder for the report and the samples",
+                   .value = "DIR",
+                   .takes = Takes::Folder},
+                  threads_option(s.threads)},
+      .example = std::string(kObserveExample),
+      .run = [settings](Console& console) { return run_observe(*settings, console); }};
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dashpot/machine/observer_tables.h"
+
+namespace dashpot::cli {
+
+/// --force-error, which several commands have.
+Option force_error_option(std::vector<std::string>& words);
+/// "30@0.01,50@1": standard deviations in N and how soon each is forgotten, s. Throws UsageError.
+std::vector<ForceError> force_errors(const std::vector<std::string>& words);
+
+}  // namespace dashpot::cli

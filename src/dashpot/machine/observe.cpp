@@ -1,0 +1,405 @@
+#include "dashpot/machine/observe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/plant_smoother.h"
+#include "dashpot/numerics/distributions.h"
+#include "dashpot/numerics/minimise.h"
+#include "dashpot/suspension/ground/road_profile.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kFewestObserved = 100;
+constexpr double kOffsetShare = 0.3;   // of a sensor's span, where nothing else is known
+constexpr std::size_t kOfStart = 500;  // samples that tell where a recording begins
+constexpr double kParted = 0.1;        // s: a quick error of the force is forgotten sooner
+
+double rms_of(const std::vector<double>& samples) {
+  double sum = 0, square = 0;
+  const auto count = static_cast<double>(samples.size());
+  for (const double sample : samples) sum += sample / count;
+  for (const double sample : samples) square += (sample - sum) * (sample - sum) / count;
+  return std::sqrt(square);
+}
+
+ObservedSamples samples_of(const InPlantSetup& setup, const PlantRecording& recording) {
+  const std::vector<std::string> inputs = measured_inputs(setup);
+  ObservedSamples samples{.count = recording.samples,
+                          .inputs = inputs.size(),
+                          .sensors = setup.sensors.size(),
+                          .driven = {},
+                          .measured = {}};
+  if (samples.count < kFewestObserved)
+    throw Error(recording.name, "has " + std::to_string(samples.count) + " samples",
+                std::to_string(kFewestObserved) + " or more");
+  std::vector<const std::vector<double>*> driven;
+  for (const std::string& channel : inputs) driven.push_back(&recording.channel(channel).samples);
+  if (!setup.drive.empty()) driven.push_back(&recording.channel(setup.drive).samples);
+
+  // A late sensor is brought forward.
+  std::vector<std::vector<double>> measured;
+  for (const PlantSensor& sensor : setup.sensors) {
+    const std::vector<double>& shown = recording.channel(sensor.channel).samples;
+    measured.push_back(sensor.delay == 0 ? shown
+                                         : delayed(shown, recording.sample_time, -sensor.delay));
+  }
+  for (std::size_t k = 0; k < samples.count; ++k) {
+    for (const std::vector<double>* channel : driven) samples.driven.push_back((*channel)[k]);
+    if (setup.drive.empty()) samples.driven.push_back(setup.level);
+    for (const std::vector<double>& channel : measured) samples.measured.push_back(channel[k]);
+  }
+  return samples;
+}
+
+/// What is uncertain as logarithms of those that were not stated, which are searched for.
+class NoiseSearch {
+ public:
+  /// At a first guess.
+  NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+              const ObserverScale& scale, const ObserveOptions& options);
+
+  const ObserverNoise& first() const { return noise_; }
+  std::size_t size() const { return sought_.size(); }
+  std::vector<double> start() const {
+    std::vector<double> x;
+    ObserverNoise noise = noise_;
+    for (const Sought& one : sought_) x.push_back(std::log(*one.place(noise)));
+    return x;
+  }
+  /// The uncertainties at x, held between their limits, and what x lies beyond these, squared.
+  std::pair<ObserverNoise, double> at(std::span<const double> x) const {
+    ObserverNoise noise = noise_;
+    double beyond = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double inside = std::clamp(x[k], sought_[k].low, sought_[k].high);
+      beyond += (x[k] - inside) * (x[k] - inside);
+      *sought_[k].place(noise) = std::exp(inside);
+    }
+    return {std::move(noise), beyond};
+  }
+
+ private:
+  struct Sought {
+    std::function<double*(ObserverNoise&)> place;
+    double low, high;  ///< of the logarithm
+  };
+  void seek(std::function<double*(ObserverNoise&)> place, double low, double high) {
+    sought_.push_back({std::move(place), std::log(low), std::log(high)});
+  }
+
+  ObserverNoise noise_;
+  std::vector<Sought> sought_;
+};
+
+NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+                         const ObserverScale& scale, const ObserveOptions& options) {
+  constexpr double kFirstForce = 0.02, kFirstNoise = 0.02, kWidest = 1e4, kSlowest = 5;
+  const double sample_time = recordings.front().sample_time;
+
+  // A quick error of the model and a slow one, which no single one can stand for.
+  noise_.force = options.force;
+  if (noise_.force.empty()) {
+    noise_.force = {{kFirstForce * scale.force, 5 * sample_time}, {kFirstForce * scale.force, 0.5}};
+    for (std::size_t e = 0; e < noise_.force.size(); ++e) {
+      seek([e](ObserverNoise& n) { return &n.force[e].deviation; }, 1e-5 * scale.force,
+           2 * scale.force);
+      seek([e](ObserverNoise& n) { return &n.force[e].memory; }, e == 0 ? 2 * sample_time : kParted,
+           e == 0 ? kParted : kSlowest);
+    }
+  }
+
+  // A sensor's noise, from a first guess by its signal.
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    const PlantSensor& sensor = setup.sensors[s];
+    const double rms = rms_of(recordings.front().channel(sensor.channel).samples);
+    if (!(rms > 0)) throw Error(sensor.channel, "is constant", "a sensor that shows the motion");
+    noise_.sensors.push_back(sensor.noise > 0 ? sensor.noise : kFirstNoise * rms);
+    if (sensor.noise == 0)
+      seek([s](ObserverNoise& n) { return &n.sensors[s]; }, rms / kWidest, rms);
+  }
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.road) {
+      noise_.roughness = input.road->roughness > 0 ? input.road->roughness : road_roughness('C');
+      if (input.road->roughness == 0)
+        seek([](ObserverNoise& n) { return &n.roughness; }, road_roughness('A') / 4,
+             road_roughness('H'));
+    }
+}
+
+std::vector<PlantObserver> observers_of(const std::shared_ptr<const DamperModel>& damper,
+                                        const InPlantSetup& setup,
+                                        const std::vector<PlantRecording>& recordings,
+                                        const ObserverNoise& noise, const ObserverScale& scale,
+                                        int steps) {
+  std::vector<PlantObserver> observers;
+  for (const PlantRecording& recording : recordings)
+    observers.emplace_back(
+        observer_tables(setup, *damper, noise, scale, recording.sample_time, steps), damper);
+  return observers;
+}
+
+/// So many steps per sample that half of them change the force by less than a hundredth of its
+/// span.
+int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlantSetup& setup,
+                 const ObserverNoise& noise, const ObserverScale& scale,
+                 const PlantRecording& recording, const ObservedSamples& samples) {
+  constexpr int kMostSteps = 32;
+  constexpr std::size_t kTried = 1500;
+  constexpr double kEnough = 0.003;
+  const auto forces = [&](int steps) {
+    ObservedSamples some = samples;
+    some.count = std::min(samples.count, kTried);
+    const PlantObserver observer(
+        observer_tables(setup, *damper, noise, scale, recording.sample_time, steps), damper);
+    const ObservedRun run = filtered(observer, some);
+    const std::size_t all = observer.tables().all();
+    std::vector<double> force;
+    for (std::size_t k = 1; k < some.count; ++k)
+      force.push_back(observer
+                          .damper_at(some.driven_at(k - 1), some.driven_at(k),
+                                     std::span(run.estimates).subspan(k * all, all),
+                                     std::span(run.covariances).subspan(k * all * all, all * all))
+                          .force);
+    return force;
+  };
+  int steps = 1;
+  for (std::vector<double> coarse = forces(1); steps < kMostSteps; steps *= 2) {
+    std::vector<double> fine = forces(2 * steps), change(fine.size());
+    for (std::size_t k = 0; k < fine.size(); ++k) change[k] = fine[k] - coarse[k];
+    if (rms_of(change) < kEnough * scale.force) break;
+    coarse = std::move(fine);
+  }
+  return steps;
+}
+
+/// Where each recording begins, twice over: the second time from where the first one came to.
+void find_starts(const std::shared_ptr<const DamperModel>& damper, const InPlantSetup& setup,
+                 const std::vector<PlantRecording>& recordings, const ObserverNoise& noise,
+                 const ObserverScale& scale, int steps, std::vector<ObservedSamples>& samples) {
+  const std::vector<PlantObserver> observers =
+      observers_of(damper, setup, recordings, noise, scale, steps);
+  for (int pass = 0; pass < 2; ++pass)
+    for (std::size_t r = 0; r < recordings.size(); ++r) {
+      std::vector<double> about = smoothed_start(observers[r], samples[r], kOfStart);
+      if (std::ranges::all_of(about, [](double x) { return std::isfinite(x); }))
+        samples[r].about = std::move(about);
+    }
+}
+
+/// The uncertainties under which the recordings are most likely.
+ObserverNoise most_likely(const NoiseSearch& search,
+                          const std::shared_ptr<const DamperModel>& damper,
+                          const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+                          const std::vector<ObservedSamples>& samples, const ObserverScale& scale,
+                          int steps, const ObserveOptions& options) {
+  constexpr std::size_t kUsed = 6000, kSettled = 50;  // samples, of all recordings and of each
+  constexpr double kStep = 0.01, kWall = 100;
+  const std::size_t used = std::max(kUsed / recordings.size(), 4 * kSettled);
+
+  // Beyond the limits the misfit rises steeply.
+  const auto misfit_at = [&](std::span<const double> x) {
+    const auto [noise, beyond] = search.at(x);
+    double sum = kWall * beyond;
+    const std::vector<PlantObserver> observers =
+        observers_of(damper, setup, recordings, noise, scale, steps);
+    for (std::size_t r = 0; r < recordings.size(); ++r)
+      sum += misfit(observers[r], samples[r], kSettled, std::min(samples[r].count, used));
+    return sum;
+  };
+
+  // Differences in every direction, a core each.
+  MinimiseOptions solver{.max_iterations = 40, .function_tolerance = 1e-5};
+  solver.on_iteration = [&](int iteration, double, std::span<const double>) {
+    options.monitor.check();
+    options.monitor.report("uncertainties", 0.1 + 0.015 * iteration);
+    return true;
+  };
+  const MinimiseReport found = minimise(
+      [&](std::span<const double> x, double& value, std::span<double> gradient) {
+        std::vector<double> values(x.size() + 1);
+        parallel_for(values.size(), options.threads, [&](std::size_t k) {
+          std::vector<double> beside(x.begin(), x.end());
+          if (k > 0) beside[k - 1] += kStep;
+          values[k] = misfit_at(beside);
+        });
+        value = values[0];
+        for (std::size_t k = 0; k < x.size(); ++k) gradient[k] = (values[k + 1] - value) / kStep;
+        return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
+      },
+      search.start(), solver);
+  return found.x.empty() || !std::isfinite(found.value) ? search.first() : search.at(found.x).first;
+}
+
+/// The estimates of a run as quantities with bands.
+ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetup& setup,
+                                const PlantRecording& recording, const ObservedSamples& samples,
+                                const ObservedRun& run, double width) {
+  const ObserverTables& t = observer.tables();
+  const ObserverNames names = observer_names(setup, observer.damper());
+  const std::size_t all = t.all(), count = samples.count,
+                    coordinates = static_cast<std::size_t>(t.plant) / 2;
+  const std::string strut = make_plant(*setup.model, setup.known).struts[setup.strut].name;
+  ObservedRecording told{.name = recording.name, .sample_time = recording.sample_time};
+  told.quantities = {{"damper_force", "N", {}, {}},
+                     {strut + "_deflection", "m", {}, {}},
+                     {strut + "_velocity", "m/s", {}, {}}};
+  for (std::size_t k = 0; k < names.states.size(); ++k)
+    told.quantities.push_back({names.states[k], names.state_units[k], {}, {}});
+
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::span<const double> estimate = std::span(run.estimates).subspan(k * all, all);
+    const std::span<const double> covariance =
+        std::span(run.covariances).subspan(k * all * all, all * all);
+    const auto add = [&](std::size_t which, double value, double variance) {
+      told.quantities[which].value.push_back(value);
+      told.quantities[which].half.push_back(width * std::sqrt(std::max(variance, 0.0)));
+    };
+    const PlantObserver::Damper damper = observer.damper_at(
+        samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), estimate, covariance);
+    add(0, damper.force, damper.deviation * damper.deviation);
+
+    // The damper's motion: a row over the plant's coordinates, or over their velocities.
+    for (const std::size_t first : {std::size_t{0}, coordinates}) {
+      double variance = 0;
+      for (std::size_t i = 0; i < coordinates; ++i)
+        for (std::size_t j = 0; j < coordinates; ++j)
+          variance += t.deflection[i] * t.deflection[j] * covariance[(first + i) * all + first + j];
+      add(first == 0 ? 1 : 2, first == 0 ? damper.deflection : damper.velocity, variance);
+    }
+    for (std::size_t s = 0; s < names.states.size(); ++s)
+      add(3 + s, estimate[s], covariance[s * all + s]);
+  }
+  return told;
+}
+
+void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup,
+                        const PlantRecording& recording, const ObservedRun& run, double width,
+                        ObservedRecording& told) {
+  const ObserverTables& t = observer.tables();
+  const std::size_t settled = std::min<std::size_t>(50, run.samples.size() / 2);
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    ObservedSensor figure{.channel = setup.sensors[s].channel,
+                          .unit = unit_of(setup.sensors[s].place.quantity),
+                          .rms = rms_of(recording.channel(setup.sensors[s].channel).samples)};
+    double square = 0, inside = 0, count = 0;
+    for (std::size_t k = settled; k < run.samples.size(); ++k) {
+      const double beyond = run.samples[k].innovation[s], variance = run.samples[k].variance[s];
+      if (!(variance > 0)) continue;
+      square += beyond * beyond;
+      inside += std::abs(beyond) <= width * std::sqrt(variance);
+      count += 1;
+    }
+    figure.surprise = std::sqrt(square / count);
+    figure.inside = inside / count;
+    figure.offset = run.estimates[(run.samples.size() - 1) * t.all() + t.moving() + s];
+    told.sensors.push_back(std::move(figure));
+  }
+}
+
+}  // namespace
+
+ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                      const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+                      const ObserveOptions& options) {
+  const double started = cpu_seconds();
+  require_setup(setup);
+  if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
+  ObserveReport report;
+
+  // How large things are, and what is uncertain.
+  ObserverScale scale = observer_scale(*damper, domain);
+  for (const PlantSensor& sensor : setup.sensors)
+    scale.offset.push_back(kOffsetShare *
+                           rms_of(recordings.front().channel(sensor.channel).samples));
+  std::vector<ObservedSamples> samples;
+  for (const PlantRecording& recording : recordings)
+    samples.push_back(samples_of(setup, recording));
+  const NoiseSearch search(setup, recordings, scale, options);
+
+  // The filter's step, then what was not stated.
+  report.steps = options.steps > 0 ? options.steps
+                                   : enough_steps(damper, setup, search.first(), scale,
+                                                  recordings.front(), samples.front());
+  options.monitor.report("uncertainties", 0.1);
+  if (!options.causal)
+    find_starts(damper, setup, recordings, search.first(), scale, report.steps, samples);
+  report.noise_was_found = search.size() > 0;
+  report.noise = report.noise_was_found ? most_likely(search, damper, setup, recordings, samples,
+                                                      scale, report.steps, options)
+                                        : search.first();
+
+  // Each recording in turn.
+  const double width = normal_quantile(0.5 + 0.5 * options.level);
+  const std::vector<PlantObserver> observers =
+      observers_of(damper, setup, recordings, report.noise, scale, report.steps);
+  if (!options.causal)
+    find_starts(damper, setup, recordings, report.noise, scale, report.steps, samples);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    options.monitor.check();
+    options.monitor.report(
+        "observing " + recordings[r].name,
+        0.7 + 0.3 * static_cast<double>(r) / static_cast<double>(recordings.size()));
+    ObservedRun run = filtered(observers[r], samples[r]);
+    if (!std::ranges::all_of(run.estimates, [](double x) { return std::isfinite(x); }))
+      throw Error(recordings[r].name, "the filter diverges",
+                  "more of its steps, or a damper and a plant that fit the recording");
+    if (!options.causal) smooth(observers[r], run);
+    report.recordings.push_back(
+        quantities_of(observers[r], setup, recordings[r], samples[r], run, width));
+    add_sensor_figures(observers[r], setup, recordings[r], run, width, report.recordings.back());
+  }
+
+  // What speaks against the bands.
+  constexpr double kFewInside = 0.8;
+  for (const ObservedRecording& told : report.recordings)
+    for (const ObservedSensor& sensor : told.sensors)
+      if (sensor.inside < kFewInside * options.level)
+        report.warnings.push_back(
+            told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
+            " % of what it shows lies within its " + format_number(100 * options.level, 2) +
+            " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
+  report.seconds = cpu_seconds() - started;
+  return report;
+}
+
+PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                            const InPlantSetup& setup, double sample_time,
+                            const ObserveOptions& options) {
+  constexpr double kLate = 0.1;  // of a sample
+  require_setup(setup);
+  ObserverScale scale = observer_scale(*damper, domain);
+  ObserverNoise noise;
+  if (options.force.empty())
+    throw Error("--force-error", "is not stated", "what 'dashpot observe' prints of this plant");
+  noise.force = options.force;
+  for (const PlantSensor& sensor : setup.sensors) {
+    if (!(sensor.noise > 0))
+      throw Error("plant, " + sensor.channel, "says nothing of its noise",
+                  "noise: what 'dashpot observe' prints of this sensor");
+    if (std::abs(sensor.delay) > kLate * sample_time)
+      throw Error("plant, " + sensor.channel,
+                  "is " + format_number(1000 * sensor.delay, 3) +
+                      " ms late: a filter that runs with the plant cannot bring it forward",
+                  "delay the other sensors as much before the filter, and leave 'delay' out");
+    noise.sensors.push_back(sensor.noise);
+    scale.offset.push_back(10 * sensor.noise);
+  }
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.road) {
+      if (input.road->roughness == 0)
+        throw Error("plant, road", "its class is unknown", "class: A to H");
+      noise.roughness = input.road->roughness;
+    }
+  return {observer_tables(setup, *damper, noise, scale, sample_time, std::max(options.steps, 1)),
+          damper};
+}
+
+}  // namespace dashpot

@@ -1,0 +1,73 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper_model.h"
+#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/observer_tables.h"
+#include "dashpot/machine/plant_recording.h"
+#include "dashpot/monitor.h"
+
+namespace dashpot {
+
+// What no sensor shows of a plant whose damper is known: the damper's force (a load cell that is
+// not there), velocities, the road. A Kalman filter of plant and damper, and over a recording that
+// is whole a smoother behind it, give each of them with a band.
+
+struct ObserveOptions {
+  bool causal = false;  ///< only from the past, as on an ECU; else from the whole recording
+  std::vector<ForceError> force;  ///< the errors of the model; empty: found, a quick and a slow one
+  int steps = 0;                  ///< of the filter per sample; 0: as many as its error asks for
+  double level = 0.9;
+  int threads = 0;
+  Monitor monitor;
+};
+
+/// One quantity over a recording: value - half ... value + half.
+struct ObservedQuantity {
+  std::string name, unit;
+  std::vector<double> value, half;
+};
+
+/// How a sensor fits what was expected of it one sample ahead.
+struct ObservedSensor {
+  std::string channel, unit;
+  double rms = 0;       ///< of what it showed, without its mean
+  double surprise = 0;  ///< rms of what it showed beyond what was expected
+  double inside = 0;    ///< share of the samples inside the band of that
+  double offset = 0;    ///< found
+};
+
+struct ObservedRecording {
+  std::string name;
+  double sample_time = 0;
+  std::vector<ObservedQuantity> quantities;  ///< the damper's force first
+  std::vector<ObservedSensor> sensors;
+};
+
+struct ObserveReport {
+  std::vector<ObservedRecording> recordings;
+  ObserverNoise noise;  ///< stated or found
+  int steps = 1;
+  bool noise_was_found = false;
+  double seconds = 0;  ///< CPU time
+  std::vector<std::string> warnings;
+};
+
+/// Observes the recordings with this damper in the plant, all of whose numbers are known. What is
+/// not stated of the uncertainties (the model's error, sensors' noise, the road's class) is that
+/// under which the recordings are most likely; every sensor's stated delay is taken off. Throws
+/// Error before long work where a number of the plant is unknown, where a recording is too short,
+/// where the damper's model cannot be followed. The domain is that of the damper's data.
+ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                      const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+                      const ObserveOptions& options);
+
+/// The filter alone, with all uncertainties stated: what an ECU runs at this sample time. Sensors
+/// without a noise, or late by more than a tenth of a sample, are refused.
+PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                            const InPlantSetup& setup, double sample_time,
+                            const ObserveOptions& options);
+
+}  // namespace dashpot

@@ -1,0 +1,297 @@
+#include "dashpot/machine/observer_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
+#include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/suspension/ground/road_profile.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kLongestWave = 0.01;  // cycle/m, below which a road counts as level
+
+/// The inputs as a filter has them: those measured, then those that are not.
+std::vector<PlantInputChannel> in_order(const InPlantSetup& setup) {
+  std::vector<PlantInputChannel> inputs = setup.inputs;
+  std::ranges::stable_partition(inputs, [](const PlantInputChannel& one) { return !one.road; });
+  return inputs;
+}
+
+/// q and q' over one step under inputs that go straight: p' = A p + B u + R u'.
+struct StepMatrices {
+  std::vector<double> transition, by_start, by_end;
+};
+
+StepMatrices step_matrices(const DrivenPlant& plant, std::size_t acting, double h) {
+  // One exponential of A with B and R beside it, and a ramp behind these.
+  const std::size_t n = plant.size(), p = 2 * n, whole = p + 3 * acting;
+  std::vector<double> block(whole * whole);
+  for (std::size_t i = 0; i < n; ++i) {
+    double* row = &block[(n + i) * whole];
+    block[i * whole + n + i] = h;
+    for (std::size_t k = 0; k < n; ++k) {
+      row[k] = -h * plant.stiffness()[i * n + k];
+      row[n + k] = -h * plant.damping()[i * n + k];
+    }
+    for (std::size_t u = 0; u + 1 < acting; ++u) {
+      row[p + u] = h * plant.by_value()[u][i];
+      row[p + 2 * acting + u] = h * plant.by_rate()[u][i];
+    }
+    row[p + acting - 1] = -h * plant.by_force()[i];
+  }
+  for (std::size_t u = 0; u < acting; ++u) block[(p + u) * whole + p + acting + u] = h;
+  const std::vector<double> over = exponential(block, whole);
+
+  // Of a value at the end: a ramp of height 1, with its rate; of one at the start: the rest.
+  StepMatrices m{std::vector<double>(p * p), std::vector<double>(p * acting),
+                 std::vector<double>(p * acting)};
+  for (std::size_t i = 0; i < p; ++i) {
+    std::copy_n(&over[i * whole], p, &m.transition[i * p]);
+    for (std::size_t u = 0; u < acting; ++u) {
+      const double constant = over[i * whole + p + u], ramp = over[i * whole + p + acting + u] / h,
+                   rate = over[i * whole + p + 2 * acting + u] / h;
+      m.by_start[i * acting + u] = constant - ramp - rate;
+      m.by_end[i * acting + u] = ramp + rate;
+    }
+  }
+  return m;
+}
+
+/// The plant's state after a sample in which one input went straight from `first` to `last`.
+std::vector<double> response_to(const StepMatrices& m, std::size_t p, std::size_t acting,
+                                std::size_t input, int steps, double first, double last) {
+  std::vector<double> state(p), next(p);
+  for (int step = 0; step < steps; ++step) {
+    const double from = first + (last - first) * step / steps,
+                 to = first + (last - first) * (step + 1) / steps;
+    for (std::size_t i = 0; i < p; ++i) {
+      next[i] = m.by_start[i * acting + input] * from + m.by_end[i * acting + input] * to;
+      for (std::size_t k = 0; k < p; ++k) next[i] += m.transition[i * p + k] * state[k];
+    }
+    state = next;
+  }
+  return state;
+}
+
+/// What each sensor shows, as rows over the plant's state, inputs, their rates, roads and the
+/// force.
+void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const ObserverNoise& noise,
+                 double road_rate_variance, ObserverTables& t) {
+  const std::size_t n = plant.size(), p = 2 * n, inputs = static_cast<std::size_t>(t.inputs),
+                    roads = static_cast<std::size_t>(t.roads), sensors = setup.sensors.size();
+  t.sensor_plant.resize(sensors * p);
+  t.sensor_input.resize(sensors * inputs);
+  t.sensor_slope.resize(sensors * inputs);
+  t.sensor_road.resize(sensors * roads);
+  t.sensor_force.resize(sensors);
+  for (std::size_t s = 0; s < sensors; ++s) {
+    const auto [quantity, q] = setup.sensors[s].place;
+    double* state = &t.sensor_plant[s * p];
+    t.sensor_variance.push_back(noise.sensors[s] * noise.sensors[s]);
+    switch (quantity) {
+      case PlantQuantity::Displacement:
+        state[q] = 1;
+        break;
+      case PlantQuantity::Velocity:
+        state[n + q] = 1;
+        break;
+      case PlantQuantity::Acceleration:
+        for (std::size_t k = 0; k < n; ++k) {
+          state[k] = -plant.stiffness()[q * n + k];
+          state[n + k] = -plant.damping()[q * n + k];
+        }
+        for (std::size_t u = 0; u < inputs; ++u) {
+          t.sensor_input[s * inputs + u] = plant.by_value()[u][q] + plant.carried()[u][q];
+          t.sensor_slope[s * inputs + u] = plant.by_rate()[u][q];
+        }
+
+        // The rate of a road that is not known is noise to a tyre with damping.
+        for (std::size_t r = 0; r < roads; ++r) {
+          t.sensor_road[s * roads + r] = plant.by_value()[inputs + r][q];
+          t.sensor_variance.back() +=
+              std::pow(plant.by_rate()[inputs + r][q], 2) * road_rate_variance;
+        }
+        t.sensor_force[s] = -plant.by_force()[q];
+        break;
+      case PlantQuantity::Deflection:
+      case PlantQuantity::DeflectionVelocity: {
+        const bool is_rate = quantity == PlantQuantity::DeflectionVelocity;
+        for (std::size_t k = 0; k < n; ++k) state[(is_rate ? n : 0) + k] = plant.deflection()[k];
+        for (std::size_t u = 0; u < inputs; ++u)
+          (is_rate ? t.sensor_slope : t.sensor_input)[s * inputs + u] = -plant.on_ground()[u];
+        break;
+      }
+      case PlantQuantity::DamperForce:
+        t.sensor_force[s] = 1;
+        break;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> measured_inputs(const InPlantSetup& setup) {
+  std::vector<std::string> channels;
+  for (const PlantInputChannel& input : in_order(setup))
+    if (!input.road) channels.push_back(input.channel);
+  return channels;
+}
+
+ObserverScale observer_scale(const DamperModel& damper, const Domain& domain) {
+  ObserverScale scale;
+  scale.stroke =
+      std::max({std::abs(domain.displacement_min), std::abs(domain.displacement_max), 1e-6});
+  scale.speed = std::max({std::abs(domain.velocity_min), std::abs(domain.velocity_max), 1e-6});
+  scale.state.assign(damper.state_size(), 0.0);
+
+  // Two sines, one of the whole stroke and one of the whole speed, at the mean drive.
+  constexpr int kSteps = 2000;
+  std::vector<double> z(damper.state_size());
+  const double slow = scale.speed / scale.stroke, quick = 3 * slow, dt = 20 / slow / kSteps;
+  const double drive = 0.5 * (domain.current_min + domain.current_max);
+  DamperInput last{0, 0, drive};
+  damper.rest(last, z);
+  for (int k = 1; k < kSteps; ++k) {
+    const double t = dt * k;
+    const DamperInput now{scale.stroke * (0.7 * std::sin(slow * t) + 0.2 * std::sin(quick * t)),
+                          scale.speed * (0.7 * std::cos(slow * t) + 0.6 * std::cos(quick * t)),
+                          drive};
+    damper.advance(last, now, dt, z);
+    scale.force = std::max(scale.force, std::abs(damper.force(now, z)));
+    for (std::size_t s = 0; s < z.size(); ++s)
+      scale.state[s] = std::max(scale.state[s], std::abs(z[s]));
+    last = now;
+  }
+  for (double& size : scale.state)
+    if (!(size > 0) || !std::isfinite(size)) size = 1;
+  if (!(scale.force > 0) || !std::isfinite(scale.force))
+    throw Error(damper.name(), "gives no finite force within the motions of its data");
+  return scale;
+}
+
+ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& damper,
+                               const ObserverNoise& noise, const ObserverScale& scale,
+                               double sample_time, int steps) {
+  if (!setup.unknown.empty())
+    throw Error("plant, " + setup.unknown.front().name, "is unknown",
+                "its value: 'dashpot identify --in' writes the plant as it was found into "
+                "plants/");
+  const std::vector<PlantInputChannel> inputs = in_order(setup);
+  std::vector<PlantInputPlace> places;
+  for (const PlantInputChannel& input : inputs) places.push_back(input.place);
+  const Plant plant = make_plant(*setup.model, setup.known);
+  const DrivenPlant equations(plant, setup.strut, places);
+  const std::size_t n = plant.size(), p = 2 * n, acting = inputs.size() + 1;
+
+  // The plant over a step.
+  ObserverTables t{.plant = static_cast<int>(p),
+                   .errors = static_cast<int>(noise.force.size()),
+                   .damper = static_cast<int>(damper.state_size()),
+                   .sensors = static_cast<int>(setup.sensors.size()),
+                   .steps = steps,
+                   .step = sample_time / steps};
+  t.roads = static_cast<int>(std::ranges::count_if(
+      inputs, [](const PlantInputChannel& one) { return one.road.has_value(); }));
+  t.inputs = static_cast<int>(inputs.size()) - t.roads;
+  const auto measured = static_cast<std::size_t>(t.inputs), roads = inputs.size() - measured;
+  StepMatrices matrices = step_matrices(equations, acting, t.step);
+  t.deflection = equations.deflection();
+  t.on_ground.assign(equations.on_ground().begin(),
+                     equations.on_ground().begin() + static_cast<std::ptrdiff_t>(measured));
+
+  // What a sample adds to the uncertainty: a road goes on at random, the force's errors likewise,
+  // and what is measured of an input is not quite what it was.
+  const std::size_t moving = t.moving(), error = p + roads;
+  t.process.resize(moving * moving);
+  const auto add = [&](const std::vector<double>& plant_part, std::size_t own, double variance) {
+    std::vector<double> row(moving);
+    std::ranges::copy(plant_part, row.begin());
+    if (own < moving) row[own] = 1;
+    for (std::size_t i = 0; i < moving; ++i)
+      for (std::size_t k = 0; k < moving; ++k)
+        t.process[i * moving + k] += variance * row[i] * row[k];
+  };
+  const auto response = [&](std::size_t input, double first, double last) {
+    return response_to(matrices, p, acting, input, steps, first, last);
+  };
+  double road_rate_variance = 0, road_deviation = 0;
+  for (std::size_t r = 0; r < roads; ++r) {
+    const RoadPrior& road = *inputs[measured + r].road;
+    const double density = noise.roughness * std::pow(kTurn * kReferenceWaveNumber, 2) * road.speed;
+    const double forgetting = kTurn * kLongestWave * road.speed;
+    t.road_keep = std::exp(-forgetting * t.step);
+    const double added = 0.5 * density * sample_time;  // two-sided
+    add(response(measured + r, 0, 1), p + r, added);
+    road_rate_variance = added / (sample_time * sample_time);
+    road_deviation = std::sqrt(0.5 * density / (2 * forgetting));
+  }
+  for (std::size_t e = 0; e < noise.force.size(); ++e) {
+    const auto [deviation, memory] = noise.force[e];
+    t.force_keep.push_back(std::exp(-t.step / memory));
+    add(response(acting - 1, 0, 1), error + e,
+        deviation * deviation * -std::expm1(-2 * sample_time / memory));
+  }
+  for (std::size_t u = 0; u < measured; ++u)
+    if (inputs[u].noise > 0) add(response(u, 1, 1), moving, inputs[u].noise * inputs[u].noise);
+
+  // The steps of differences, and a trace of uncertainty so that nothing counts as exact.
+  constexpr double kDifference = 1e-3, kTrace = 1e-6;
+  for (std::size_t k = 0; k < p; ++k)
+    t.difference.push_back(kDifference * (k < n ? scale.stroke : scale.speed));
+  for (std::size_t r = 0; r < roads; ++r) t.difference.push_back(kDifference * scale.stroke);
+  t.difference.insert(t.difference.end(), noise.force.size(), kDifference * scale.force);
+  for (const double size : scale.state) t.difference.push_back(kDifference * size);
+  t.way = kDifference * scale.stroke;
+  t.speed = kDifference * scale.speed;
+  for (std::size_t k = 0; k < moving; ++k)
+    t.process[k * moving + k] += std::pow(kTrace / kDifference * t.difference[k], 2);
+  add_sensors(equations, setup, noise, road_rate_variance, t);
+
+  // The start: at rest, or anywhere.
+  constexpr double kAnywhere = 1;
+  const double start = setup.from_rest ? kDifference : kAnywhere;
+  for (std::size_t k = 0; k < p; ++k)
+    t.first_deviation.push_back(start * (k < n ? scale.stroke : scale.speed));
+  for (std::size_t r = 0; r < roads; ++r)
+    t.first_deviation.push_back(setup.from_rest ? start * scale.stroke : road_deviation);
+  for (const ForceError& one : noise.force) t.first_deviation.push_back(one.deviation);
+  for (const double size : scale.state)
+    t.first_deviation.push_back((setup.from_rest ? kDifference : 1) * size);
+  t.first_deviation.insert(t.first_deviation.end(), scale.offset.begin(), scale.offset.end());
+  t.transition = std::move(matrices.transition);
+  t.by_start = std::move(matrices.by_start);
+  t.by_end = std::move(matrices.by_end);
+  return t;
+}
+
+ObserverNames observer_names(const InPlantSetup& setup, const DamperModel& damper) {
+  ObserverNames names{.plant = std::string(setup.model->name),
+                      .damper = damper.name(),
+                      .drive_unit = setup.drive_unit};
+  const Plant plant = make_plant(*setup.model, setup.known);
+  for (const auto& [suffix, rate] : {std::pair{"", ""}, std::pair{"_velocity", "/s"}})
+    for (const Coordinate& coordinate : plant.coordinates) {
+      names.states.push_back(coordinate.name + suffix);
+      names.state_units.push_back(coordinate.unit + rate);
+    }
+  constexpr const char* kInputUnits[] = {"N", "m", "m/s^2"};  // in the order of PlantInput
+  for (const PlantInputChannel& input : in_order(setup)) {
+    if (input.road) {
+      names.states.emplace_back("road");
+      names.state_units.emplace_back("m");
+      continue;
+    }
+    names.inputs.push_back(input.channel);
+    names.input_units.emplace_back(kInputUnits[static_cast<std::size_t>(input.place.kind)]);
+  }
+  for (const PlantSensor& sensor : setup.sensors) {
+    names.sensors.push_back(sensor.channel);
+    names.sensor_units.push_back(unit_of(sensor.place.quantity));
+  }
+  return names;
+}
+
+}  // namespace dashpot

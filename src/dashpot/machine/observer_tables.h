@@ -1,0 +1,45 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "dashpot/damper_model.h"
+#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/suspension/observe/plant_observer.h"
+
+namespace dashpot {
+
+/// An error of the model's force that comes and goes: a first-order process.
+struct ForceError {
+  double deviation = 0;  ///< N
+  double memory = 0;     ///< s, in which it is forgotten
+};
+
+/// What is uncertain of a plant with a known damper, as standard deviations, SI.
+struct ObserverNoise {
+  std::vector<ForceError> force;  ///< of the damper's model, their sum
+  std::vector<double> sensors;    ///< per sensor, white
+  double roughness = 0;           ///< m^3, G_d(n0) of a road that nothing measures
+};
+
+/// How large the motion is, for the steps of differences and for what is not known at the start.
+struct ObserverScale {
+  double stroke = 0, speed = 0, force = 0;  ///< m, m/s, N: half spans of the damper's
+  std::vector<double> state;                ///< of each number of the damper's state
+  std::vector<double> offset;               ///< per sensor
+};
+/// By moving the model through its domain.
+ObserverScale observer_scale(const DamperModel& damper, const Domain& domain);
+
+/// The filter of this plant. Heights of a road that nothing measures follow
+///   w' = -2 pi n_c V w + 2 pi n0 sqrt(G_d(n0) V) xi,  n_c = 0.01 cycle/m,
+/// whose density is that of ISO 8608 above n_c. Throws Error where numbers of the plant are
+/// unknown.
+ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& damper,
+                               const ObserverNoise& noise, const ObserverScale& scale,
+                               double sample_time, int steps);
+ObserverNames observer_names(const InPlantSetup& setup, const DamperModel& damper);
+
+/// The channels of the inputs that are measured, in the order of the filter.
+std::vector<std::string> measured_inputs(const InPlantSetup& setup);
+
+}  // namespace dashpot

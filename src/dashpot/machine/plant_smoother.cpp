@@ -1,0 +1,118 @@
+#include "dashpot/machine/plant_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace dashpot {
+namespace {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using MatrixMap = Eigen::Map<RowMatrix>;
+using ConstMatrixMap = Eigen::Map<const RowMatrix>;
+using VectorMap = Eigen::Map<Eigen::VectorXd>;
+using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
+
+/// Calls see(k, estimate, covariance, sample) at every sample of the filter's run; stops where it
+/// returns false.
+template <class See>
+void run_filter(const PlantObserver& observer, const ObservedSamples& samples, std::size_t end,
+                const See& see) {
+  const std::size_t all = observer.tables().all();
+  std::vector<double> estimate(all), covariance(all * all);
+  ObservedSample sample;
+  for (std::size_t k = 0; k < end; ++k) {
+    if (k == 0)
+      observer.start(samples.driven_at(0), samples.measured_at(0), samples.about, estimate,
+                     covariance, sample);
+    else
+      observer.step(samples.driven_at(k - 1), samples.driven_at(k), samples.measured_at(k),
+                    estimate, covariance, sample);
+    if (!see(k, estimate, covariance, sample)) return;
+  }
+}
+
+}  // namespace
+
+ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& samples) {
+  ObservedRun run;
+  run_filter(observer, samples, samples.count,
+             [&](std::size_t, const std::vector<double>& estimate,
+                 const std::vector<double>& covariance, const ObservedSample& sample) {
+               run.estimates.insert(run.estimates.end(), estimate.begin(), estimate.end());
+               run.covariances.insert(run.covariances.end(), covariance.begin(), covariance.end());
+               run.samples.push_back(sample);
+               return true;
+             });
+  return run;
+}
+
+double misfit(const PlantObserver& observer, const ObservedSamples& samples, std::size_t first,
+              std::size_t end) {
+  double sum = 0;
+  run_filter(observer, samples, end,
+             [&](std::size_t k, const std::vector<double>& estimate, const std::vector<double>&,
+                 const ObservedSample& sample) {
+               for (std::size_t s = 0; k >= first && s < sample.variance.size(); ++s)
+                 if (sample.variance[s] > 0)
+                   sum += std::log(sample.variance[s]) +
+                          sample.innovation[s] * sample.innovation[s] / sample.variance[s];
+               if (!std::ranges::all_of(estimate, [](double x) { return std::isfinite(x); }))
+                 sum = INFINITY;
+               return std::isfinite(sum);
+             });
+  return std::isfinite(sum) ? sum : static_cast<double>(INFINITY);
+}
+
+void smooth(const PlantObserver& observer, ObservedRun& run) {
+  const ObserverTables& t = observer.tables();
+  const auto all = static_cast<Eigen::Index>(t.all()),
+             moving = static_cast<Eigen::Index>(t.moving());
+  const auto sensors = static_cast<std::size_t>(t.sensors);
+  Eigen::VectorXd adjoint = Eigen::VectorXd::Zero(all);
+  RowMatrix information = RowMatrix::Zero(all, all);
+  for (std::size_t k = run.samples.size(); k-- > 0;) {
+    const ObservedSample& sample = run.samples[k];
+    VectorMap estimate(&run.estimates[k * t.all()], all);
+    MatrixMap covariance(&run.covariances[k * t.all() * t.all()], all, all);
+    RowMatrix before = covariance;  // with fewer and fewer of the sensors taken in
+
+    // What the samples behind this one say of it.
+    estimate -= covariance * adjoint;
+    covariance -= (before * information * before).eval();
+
+    // Back over this sample's sensors, the last one first.
+    for (std::size_t s = sensors; s-- > 0;) {
+      if (!(sample.variance[s] > 0)) continue;
+      const ConstVectorMap row(&sample.rows[s * t.all()], all);
+      const Eigen::VectorXd gain = before * row / t.sensor_variance[s];
+      adjoint -= row * (gain.dot(adjoint) + sample.innovation[s] / sample.variance[s]);
+      const Eigen::VectorXd seen = information * gain;
+      const double twice = gain.dot(seen) + 1 / sample.variance[s];
+      information +=
+          twice * row * row.transpose() - row * seen.transpose() - seen * row.transpose();
+      before += sample.variance[s] * gain * gain.transpose();
+    }
+
+    // Back over the step that led here: the offsets stay as they are.
+    if (k == 0) break;
+    const ConstMatrixMap transition(sample.transition.data(), moving, moving);
+    adjoint.head(moving) = (transition.transpose() * adjoint.head(moving)).eval();
+    information.topRows(moving) = (transition.transpose() * information.topRows(moving)).eval();
+    information.leftCols(moving) = (information.leftCols(moving) * transition).eval();
+  }
+}
+
+std::vector<double> smoothed_start(const PlantObserver& observer, const ObservedSamples& samples,
+                                   std::size_t count) {
+  ObservedSamples some = samples;
+  some.count = std::min(samples.count, count);
+  ObservedRun run = filtered(observer, some);
+  smooth(observer, run);
+  const ObserverTables& t = observer.tables();
+  run.estimates.resize(static_cast<std::size_t>(t.plant + t.roads));
+  return run.estimates;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,52 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "dashpot/suspension/observe/plant_observer.h"
+
+namespace dashpot {
+
+/// The samples of a recording as a filter takes them: per sample the measured inputs with the drive
+/// behind them, and what each sensor shows.
+struct ObservedSamples {
+  std::size_t count = 0, inputs = 0, sensors = 0;
+  std::vector<double> driven;    ///< count x (inputs + 1)
+  std::vector<double> measured;  ///< count x sensors
+  /// Where the plant and its roads are at the first sample, velocities to a tenth; empty: nobody
+  /// knows.
+  std::vector<double> about = {};
+
+  std::span<const double> driven_at(std::size_t k) const {
+    return std::span(driven).subspan(k * (inputs + 1), inputs + 1);
+  }
+  std::span<const double> measured_at(std::size_t k) const {
+    return std::span(measured).subspan(k * sensors, sensors);
+  }
+};
+
+/// Estimates and covariances at every sample, and what the filter was told there.
+struct ObservedRun {
+  std::vector<double> estimates, covariances;  ///< count x all, count x all x all
+  std::vector<ObservedSample> samples;
+};
+
+/// The filter from the first sample to the last: each estimate knows the samples up to its own.
+ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& samples);
+
+/// Lets every estimate of the run know the samples behind it too, in place.
+/// Source: G. J. Bierman, Factorization Methods for Discrete Sequential Estimation, 1977: the
+/// smoother of Bryson and Frazier as he modified it, which inverts no covariance.
+void smooth(const PlantObserver& observer, ObservedRun& run);
+
+/// Where the plant and its roads are at the first sample, as the first `count` samples tell when
+/// they are all known: what ObservedSamples::about takes. So the filter begins where straight lines
+/// through the damper's force are right.
+std::vector<double> smoothed_start(const PlantObserver& observer, const ObservedSamples& samples,
+                                   std::size_t count);
+
+/// -2 log of the likelihood of the sensors' samples from `first` on, but for a constant: what the
+/// uncertainties that fit best make least. Infinite where the filter diverges.
+double misfit(const PlantObserver& observer, const ObservedSamples& samples, std::size_t first,
+              std::size_t end);
+
+}  // namespace dashpot

@@ -1,0 +1,227 @@
+#include "dashpot/machine/virtual_campaign.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dashpot/base/random.h"
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/ground_motion.h"
+#include "dashpot/numerics/constants.h"
+#include "dashpot/suspension/dampers/damper_words.h"
+#include "dashpot/suspension/plants/linear.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kFiner = 8, kStepsOfFiner = 5;  // per sample, and of the integrator in each
+
+/// A sum of sines of random phases, alike in strength over a band of frequencies.
+class RandomPush {
+ public:
+  RandomPush(double rms, double top, std::uint64_t seed) {
+    constexpr int kSines = 120;
+    constexpr double kLowest = 0.3;  // Hz
+    Random random(seed);
+    for (int k = 0; k < kSines; ++k) {
+      rates_.push_back(kTurn * (kLowest + (top - kLowest) * (k + random.uniform()) / kSines));
+      phases_.push_back(kTurn * random.uniform());
+    }
+    amplitude_ = rms * std::sqrt(2.0 / kSines);
+  }
+  double value(double t) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < rates_.size(); ++k) sum += std::sin(rates_[k] * t + phases_[k]);
+    return amplitude_ * sum;
+  }
+  double rate(double t) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < rates_.size(); ++k)
+      sum += rates_[k] * std::cos(rates_[k] * t + phases_[k]);
+    return amplitude_ * sum;
+  }
+
+ private:
+  std::vector<double> rates_, phases_;
+  double amplitude_ = 0;
+};
+
+/// The inputs on the fine grid of the integrator.
+PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
+                        const VirtualCampaignOptions& options, double level, double push,
+                        std::uint64_t seed) {
+  PlantDriving driving{.sample_time = 1 / options.sample_rate / kFiner, .steps = kStepsOfFiner};
+  driving.samples =
+      static_cast<std::size_t>(std::lround(options.duration * options.sample_rate)) * kFiner + 1;
+  driving.current.assign(driving.points(), level);
+  const double step = driving.sample_time / (2 * kStepsOfFiner);
+  const std::vector<double> modes = natural_frequencies(linear_plant(plant));
+  for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
+    std::vector<double> value(driving.points()), rate(driving.points());
+    const bool is_road = setup.inputs[u].place.kind == PlantInput::Ground;
+    GroundPointer ground;
+    if (!options.road.empty() && setup.inputs[u].place.kind != PlantInput::Force)
+      ground = make_ground(options.road, seed + u, "--road");
+    if (ground && ground->shakes() == is_road)
+      throw Error("--road",
+                  "'" + options.road + "' is " + (is_road ? "an acceleration" : "a height") +
+                      ", not what moves the " + plant.name,
+                  is_road ? "a road, a bump" : "earthquake,file=...");
+    if (is_road && !ground) throw Error("--road", "is not stated", "iso8608,class=C,speed=20m/s");
+
+    const RandomPush random(push, std::min(options.sample_rate / 5, 3 * modes.back()), seed + u);
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const double t = step * static_cast<double>(k);
+      if (is_road) {
+        const FootMotion foot = ground->foot(t, 0, 0);
+        value[k] = foot.height;
+        rate[k] = foot.velocity;
+      } else {
+        value[k] = ground ? ground->acceleration(t) : random.value(t);
+        rate[k] = ground ? 0 : random.rate(t);
+      }
+    }
+    driving.value.push_back(std::move(value));
+    driving.rate.push_back(std::move(rate));
+  }
+  return driving;
+}
+
+/// A fine signal at each sample, `delay` seconds earlier; before the first one it stood still.
+std::vector<double> sampled(const std::vector<double>& fine, std::size_t samples, double late) {
+  std::vector<double> values(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double place = std::clamp(static_cast<double>(k * kFiner) - late, 0.0,
+                                    static_cast<double>(fine.size() - 1));
+    const std::size_t below = std::min(static_cast<std::size_t>(place), fine.size() - 2);
+    values[k] =
+        fine[below] + (place - static_cast<double>(below)) * (fine[below + 1] - fine[below]);
+  }
+  return values;
+}
+
+void add_channel(Record& record, const std::string& name, const std::string& unit,
+                 std::vector<double> samples) {
+  record.channels.push_back(
+      {.name = name, .unit = unit, .samples = std::move(samples), .origin = "simulated"});
+}
+
+std::vector<double> with_noise(std::vector<double> samples, double noise, Random& random) {
+  for (double& sample : samples) sample += noise * random.normal();
+  return samples;
+}
+
+}  // namespace
+
+const std::vector<SensorGrade>& sensor_grades() {
+  static const std::vector<SensorGrade> kGrades = {
+      {"exact", {0, 0, 0, 0, 0, 0}, {0, 0, 0}},
+      {"laboratory", {2e-5, 5e-4, 0.01, 2e-5, 5e-4, 2}, {0.5, 2e-5, 0.005}},
+      {"car", {5e-4, 5e-3, 0.05, 2e-4, 5e-3, 20}, {5, 2e-4, 0.05}}};
+  return kGrades;
+}
+
+const SensorGrade& find_sensor_grade(const std::string& name, const std::string& where) {
+  std::vector<std::string> known;
+  for (const SensorGrade& grade : sensor_grades()) {
+    if (grade.name == name) return grade;
+    known.push_back(grade.name);
+  }
+  throw Error(where, "unknown grade '" + name + "'", suggest(name, known));
+}
+
+InPlantSetup with_grade(InPlantSetup setup, const SensorGrade& grade) {
+  for (PlantSensor& sensor : setup.sensors)
+    if (sensor.noise == 0)
+      sensor.noise = grade.sensors[static_cast<std::size_t>(sensor.place.quantity)];
+  for (PlantInputChannel& input : setup.inputs)
+    if (input.noise == 0 && !input.road)
+      input.noise = grade.inputs[static_cast<std::size_t>(input.place.kind)];
+  return setup;
+}
+
+std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const DamperModel& damper,
+                                          const VirtualCampaignOptions& options) {
+  require_setup(setup);
+  if (!setup.unknown.empty())
+    throw Error("plant, " + setup.unknown.front().name, "is unknown", "its true value");
+  if (!damper.flows())
+    throw Error(damper.name(), "its states have no rates", "a published parameter set");
+  const Plant plant = make_plant(*setup.model, setup.known);
+  std::vector<PlantInputPlace> inputs;
+  for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
+  const DrivenPlant equations(plant, setup.strut, inputs);
+  const std::string strut = plant.struts[setup.strut].name;
+
+  // The sensors, then what is true.
+  std::vector<PlantSensorPlace> places;
+  for (const PlantSensor& sensor : setup.sensors) places.push_back(sensor.place);
+  std::vector<std::pair<std::string, PlantSensorPlace>> true_places = {
+      {"damper_force", {PlantQuantity::DamperForce, 0}},
+      {strut + "_deflection", {PlantQuantity::Deflection, 0}},
+      {strut + "_velocity", {PlantQuantity::DeflectionVelocity, 0}}};
+  for (std::size_t q = 0; q < plant.size(); ++q) {
+    true_places.push_back({plant.coordinates[q].name, {PlantQuantity::Displacement, q}});
+    true_places.push_back({plant.coordinates[q].name + "_velocity", {PlantQuantity::Velocity, q}});
+  }
+  for (const auto& [name, place] : true_places) places.push_back(place);
+
+  std::vector<VirtualRide> rides;
+  for (std::size_t r = 0; r < options.levels.size(); ++r) {
+    options.monitor.check();
+    const double level = options.levels[r];
+    const std::uint64_t seed = options.seed + 1000 * r;
+
+    // The run, from rest, in which the springs bear what the damper has at rest.
+    const std::unique_ptr<DamperModel> mounted = damper.with_offset(-force_at_rest(damper, level));
+    const bool is_pushed = setup.inputs.front().place.kind == PlantInput::Force;
+    const double usual = is_pushed ? 0.3 * plant.mass.front() : 1;  // N by kg, m/s^2
+    const PlantDriving driving =
+        driving_of(setup, plant, options, level, options.push > 0 ? options.push : usual, seed);
+    std::vector<double> state(2 * plant.size() + mounted->state_size());
+    mounted->rest({0, 0, level}, std::span(state).subspan(2 * plant.size()));
+    std::vector<std::vector<double>> shown;
+    if (!equations.run(*mounted, driving, driving.samples, places, state, shown))
+      throw Error("the ride at " + format_number(level) + " " + to_string(setup.drive_unit),
+                  "diverges", "another damper, a lower level");
+
+    // As the sensors have it.
+    VirtualRide ride;
+    const std::size_t samples = (driving.samples - 1) / kFiner;
+    for (Record* record : {&ride.recorded, &ride.truth}) {
+      record->name = "ride_" + std::to_string(r + 1);
+      record->sample_time = 1 / options.sample_rate;
+      for (std::size_t k = 0; k < samples; ++k)
+        record->time.push_back(static_cast<double>(k) / options.sample_rate);
+    }
+    Random noise(seed + 500);
+    constexpr const char* kUnits[] = {"N", "m", "m/s^2"};  // in the order of PlantInput
+    for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
+      std::vector<double> fine(driving.samples);
+      for (std::size_t k = 0; k < fine.size(); ++k)
+        fine[k] = driving.value[u][2 * kStepsOfFiner * k];
+      const std::vector<double> values = sampled(fine, samples, 0);
+      const PlantInputChannel& input = setup.inputs[u];
+      const std::string unit = kUnits[static_cast<std::size_t>(input.place.kind)];
+      if (input.place.kind == PlantInput::Ground) add_channel(ride.truth, "road", unit, values);
+      if (!input.road)
+        add_channel(ride.recorded, input.channel, unit, with_noise(values, input.noise, noise));
+    }
+    for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+      add_channel(
+          ride.recorded, setup.sensors[s].channel, unit_of(setup.sensors[s].place.quantity),
+          with_noise(sampled(shown[s], samples, setup.sensors[s].delay / driving.sample_time),
+                     setup.sensors[s].noise, noise));
+    if (!setup.drive.empty())
+      add_channel(ride.recorded, setup.drive, to_string(setup.drive_unit),
+                  std::vector<double>(samples, level));
+    for (std::size_t k = 0; k < true_places.size(); ++k)
+      add_channel(ride.truth, true_places[k].first, unit_of(true_places[k].second.quantity),
+                  sampled(shown[setup.sensors.size() + k], samples, 0));
+    rides.push_back(std::move(ride));
+  }
+  return rides;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,86 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper_model.h"
+#include "dashpot/drive.h"
+
+namespace dashpot {
+
+/// The most numbers of an estimate, sensors, measured inputs and numbers of a damper's state.
+constexpr std::size_t kMostObserved = 32, kMostObservedSensors = 12, kMostObservedInputs = 8,
+                      kMostObservedDamper = 12;
+
+/// The tables of a filter of a plant, as c_text/plant_filter.h names and orders them. SI.
+struct ObserverTables {
+  int plant = 0, inputs = 0, roads = 0, errors = 0, damper = 0, sensors = 0, steps = 1;
+  double step = 0;  ///< s
+  double road_keep = 1;
+  std::vector<double> force_keep, transition, by_start, by_end, deflection, on_ground;
+  std::vector<double> sensor_plant, sensor_input, sensor_slope, sensor_road, sensor_force;
+  std::vector<double> sensor_variance, process, difference;
+  double way = 0, speed = 0;  ///< m, m/s
+  std::vector<double>
+      first_deviation;  ///< of every number of the estimate, before the first sample
+
+  std::size_t moving() const { return static_cast<std::size_t>(plant + roads + errors + damper); }
+  std::size_t all() const { return moving() + static_cast<std::size_t>(sensors); }
+};
+
+/// What the numbers of an estimate and the places of the samples are called, for whoever writes
+/// them: coordinates, velocities, roads; sensors and inputs by their channels.
+struct ObserverNames {
+  std::vector<std::string> states, state_units;  ///< of the plant and the roads
+  std::vector<std::string> sensors, sensor_units;
+  std::vector<std::string> inputs, input_units;
+  std::string plant, damper;
+  DriveUnit drive_unit = DriveUnit::None;
+};
+
+/// What a sample told a filter, beside the estimate: as FilterSample of the text.
+struct ObservedSample {
+  std::vector<double> transition;  ///< moving x moving
+  std::vector<double> rows;        ///< sensors x all
+  std::vector<double> innovation;  ///< per sensor
+  std::vector<double> variance;    ///< of it; 0: the sensor showed no number
+};
+
+/// An extended Kalman filter of a linear plant with one damper in it: the state of the plant, the
+/// road where nothing measures it, the damper's own state, errors of its force that come and go,
+/// and an offset per sensor, from what the sensors show. The same text is the exported C.
+/// Immutable; estimate (all() numbers) and covariance (all() x all()) are the caller's.
+/// Source: R. E. Kalman 1960; A. Gelb, Applied Optimal Estimation, 1974, for the extended one.
+class PlantObserver {
+ public:
+  /// Throws Error where the damper's states have no rates, so that nothing can be said of small
+  /// changes of them, and where there are more numbers than kMostObserved...
+  PlantObserver(ObserverTables tables, std::shared_ptr<const DamperModel> damper);
+
+  const ObserverTables& tables() const { return tables_; }
+  const DamperModel& damper() const { return *damper_; }
+
+  /// The first sample. `now`: the measured inputs, then the drive; `measured`: per sensor; `about`:
+  /// the plant and its roads, where velocities are known to a tenth; empty: they are not.
+  void start(std::span<const double> now, std::span<const double> measured,
+             std::span<const double> about, std::span<double> estimate,
+             std::span<double> covariance, ObservedSample& sample) const;
+  /// The next sample, of which `before` are the inputs at the last one.
+  void step(std::span<const double> before, std::span<const double> now,
+            std::span<const double> measured, std::span<double> estimate,
+            std::span<double> covariance, ObservedSample& sample) const;
+  /// Force of the damper, N, with its standard deviation, deflection m and its rate m/s.
+  struct Damper {
+    double force = 0, deviation = 0, deflection = 0, velocity = 0;
+  };
+  Damper damper_at(std::span<const double> before, std::span<const double> now,
+                   std::span<const double> estimate, std::span<const double> covariance) const;
+
+ private:
+  ObserverTables tables_;
+  std::shared_ptr<const DamperModel> damper_;
+};
+
+}  // namespace dashpot
