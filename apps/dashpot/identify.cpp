@@ -120,13 +120,7 @@ Command identify_command() {
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
                            fresh_option(settings->ranking)});
   append(command.options,
-         {{.names = "--from",
-           .target = &settings->ranking.fit.from,
-           .help = "model files of laws whose numbers are the first start of these laws' fits, as "
-                   "of a damper of the same series; with --starts 1 the only one",
-           .value = "MODEL",
-           .takes = Takes::File,
-           .default_text = "the size of the data alone"},
+         {from_option(settings->ranking),
           {.names = "--validate",
            .target = &settings->validate,
            .help = "further recordings that no fit sees: the final models are judged on them "

@@ -10,6 +10,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/ranks.h"
+#include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/identify/rank/rank_and_tell.h"
@@ -98,7 +99,8 @@ int run_rank(const RankSettings& settings, Console& console) {
 
   const std::unique_ptr<FitStore> store = fit_store(asked, console);
   const ChosenModels models = chosen_models(asked.fit, data.dataset, data.leave_out, console);
-  const IdentifyOptions options = identify_options(asked.fit, models.names, console);
+  IdentifyOptions options = identify_options(asked.fit, models.names, console);
+  options.from = first_starts(asked.fit, models.names, data.dataset);
   PartReport made;
   if (are_dealt_out(part)) {
     made = rank_part(models.names, data.dataset, data.leave_out, options, *store, part);
@@ -156,6 +158,7 @@ Command rank_command() {
   append(command.options,
          {budget_option(settings->ranking.fit, budget_of_groups()),
           fresh_option(settings->ranking),
+          from_option(settings->ranking),
           {.names = "--costs",
            .target = &settings->costs,
            .help = "print the CPU time that the fits of each model are estimated to take, and fit "

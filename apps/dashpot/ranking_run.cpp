@@ -41,6 +41,17 @@ Option fresh_option(RankingSettings& settings) {
       .names = "--fresh", .target = &settings.fresh, .help = "neither use nor keep finished fits"};
 }
 
+Option from_option(RankingSettings& settings) {
+  return {.names = "--from",
+          .target = &settings.fit.from,
+          .help =
+              "model files of laws whose numbers are the first start of these laws' fits, as "
+              "of a damper of the same series; with --starts 1 the only one",
+          .value = "MODEL",
+          .takes = Takes::File,
+          .default_text = "the size of the data alone"};
+}
+
 RankingData ranking_data(const RankingSettings& settings, Console& console) {
   const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   Dataset dataset = load_recordings(settings.data, console);

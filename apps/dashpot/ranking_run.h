@@ -29,6 +29,8 @@ std::optional<LeaveOut> stated_leave_out(const std::string& text);
 std::vector<Option> ranking_options(RankingSettings& settings);
 /// Of commands that use fit_store().
 Option fresh_option(RankingSettings& settings);
+/// Of commands that take first_starts() into their fits.
+Option from_option(RankingSettings& settings);
 
 struct RankingData {
   Dataset dataset;

@@ -11,6 +11,7 @@
 #include "dashpot/design/design_request.h"
 #include "dashpot/error.h"
 #include "dashpot/physics/damper_description.h"
+#include "start_model.h"
 #include "vehicle_words.h"
 
 namespace fs = std::filesystem;
@@ -19,6 +20,7 @@ namespace dashpot::studio {
 namespace {
 
 constexpr const char* kRequestFile = "request.yaml";
+constexpr const char* kStartFile = "start.json";
 
 std::vector<std::string> strings(const Value& list) {
   std::vector<std::string> texts;
@@ -36,10 +38,19 @@ void require_models(const std::vector<std::string>& models) {
       throw Error("'" + model + "'", "is no model", suggest(model, known));
 }
 
-std::vector<std::string> fit_command(const Project& project, const fs::path&, const Value& asked) {
+/// Where a fit of one law begins; it stands in its folder once the fit has begun.
+std::string start_of(const Project& project, const Value& asked) {
+  const std::vector<std::string> models = strings(*asked.find("models"));
+  if (models.size() != 1) throw Error("from", "is a start of one law", "one model");
+  return start_model(project, *asked.find("from"), models.front());
+}
+
+std::vector<std::string> fit_command(const Project& project, const fs::path& folder,
+                                     const Value& asked) {
   ObjectReader reader(asked, "a fit");
   const std::vector<std::string> models = strings(reader.required("models"));
   const std::string leave_out = reader.string("leave_out", "");
+  const Value* from = reader.optional("from");
   reader.finish();
   require_models(models);
   std::vector<std::string> words{"rank", project.folder().string(), "--models", join(models, ",")};
@@ -47,7 +58,18 @@ std::vector<std::string> fit_command(const Project& project, const fs::path&, co
     parse_leave_out(leave_out);
     words.insert(words.end(), {"--leave-out", leave_out});
   }
+  if (from) {
+    const fs::path start =
+        project.inside((folder / kStartFile).lexically_relative(project.folder()).string());
+    if (!fs::exists(start)) start_of(project, asked);
+    words.insert(words.end(), {"--from", start.string(), "--starts", "1"});
+  }
   return words;
+}
+
+void write_start(const Project& project, const fs::path& folder, const Value& asked) {
+  if (asked.find("from") && !fs::exists(folder / kStartFile))
+    write_file(folder / kStartFile, start_of(project, asked));
 }
 
 std::vector<std::string> ride_command(const Project& project, const fs::path&, const Value& asked) {
@@ -119,12 +141,12 @@ Value continued_design(const fs::path& folder, const Value& asked) {
   return next;
 }
 
-void write_request(const fs::path& folder, const Value& asked) {
+void write_request(const Project&, const fs::path& folder, const Value& asked) {
   write_file(folder / kRequestFile, asked.find("request")->as_string());
 }
 
 constexpr std::array kJobKinds{
-    JobKind{"fit", "fits", "report.html", fit_command, nullptr, nullptr},
+    JobKind{"fit", "fits", "report.html", fit_command, nullptr, write_start},
     JobKind{"ride", "rides", "report.html", ride_command, nullptr, nullptr},
     JobKind{"design", "designs", "design.html", design_command, continued_design, write_request}};
 

@@ -22,10 +22,11 @@ struct JobKind {
   /// What is asked for where it goes on in its folder; null: the same as before.
   Value (*continued)(const std::filesystem::path& folder, const Value& asked);
   /// Writes what the command reads from the folder; null: nothing.
-  void (*prepare)(const std::filesystem::path& folder, const Value& asked);
+  void (*prepare)(const Project& project, const std::filesystem::path& folder, const Value& asked);
 };
 
-/// "fit": {"models": ["bingham", ...], "leave_out": ""}, as `dashpot rank` takes them.
+/// "fit": {"models": ["bingham", ...], "leave_out": ""}, as `dashpot rank` takes them; of one law
+/// also {"from": ...}, where its search begins (start_model.h).
 /// "ride": a drive (vehicle_words.h) with {"controllers": ["skyhook", ...], "bound": false}.
 /// "design": {"request": YAML, "points", "generations", "seed", "goes_on": false}, the last of
 /// these from the designs in its folder. Throws Error on any other name.

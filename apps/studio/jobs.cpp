@@ -160,7 +160,7 @@ void Jobs::begin(Job& job) {
   job.fraction = 0;
   job.stop_asked = false;
   project_.make_result(job.kind->folder, job.name);
-  if (job.kind->prepare) job.kind->prepare(folder_of(job), job.asked);
+  if (job.kind->prepare) job.kind->prepare(project_, folder_of(job), job.asked);
   save(job);
   job.thread = std::jthread([this, &job] { run(job); });
   ++version_;

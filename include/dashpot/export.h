@@ -28,6 +28,7 @@ struct ExportedModel {
   Domain domain;           ///< where it was identified, or where its parameters hold
   double sample_time = 0;  ///< s, of the training data; 0: mixed or unknown
   std::string origin;      ///< where it comes from, in words
+  std::optional<ForceBand> interval = {};  ///< around its force, where left-out records allow one
 };
 
 /// The model of a file, which must outlive the result.

@@ -1,12 +1,15 @@
 // Models as JavaScript, run by Node beside the library and beside a C compiler.
 #include "dashpot/export/js/js.h"
 
+#include <fmt/format.h>
+
 #include "conformance/c_compile.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/export_run.h"
 #include "dashpot/export/js/js_code.h"
+#include "dashpot/physics/plate_flow.h"
 #include "dashpot/value.h"
 #include "export/example_models.h"
 #include "support.h"
@@ -112,6 +115,86 @@ TEST_CASE("JavaScript: a law whose parameters are set gives the force of a law t
                   parameters);
   }
   check_js(folder);
+}
+
+TEST_CASE("JavaScript: a family's damper whose numbers are set gives the force of that member") {
+  if (!has_node()) return;
+  const TemporaryFolder folder;
+  const FamilyModel model = example_family_physics();
+  FamilyMember other = model.member();
+  other.gap *= 1.2;
+  other.pole_length *= 0.9;
+  other.viscosity *= 0.8;
+  other.build = -1;
+  for (double& stress : other.yield.stresses) stress *= 0.5;
+  const double last = other.yield.stresses.back();
+  write_js_case(folder, "family_physics", model, *model.with_member(other),
+                Value::object({{"gap", other.gap},
+                               {"pole_length", other.pole_length},
+                               {"viscosity", other.viscosity},
+                               {"build", other.build},
+                               {"yield_stress", last}}));
+  check_js(folder);
+
+  // The plate flow alone, of the same member.
+  const auto path = folder.write(
+      "flow.mjs",
+      fmt::format(
+          "import {{create, plate_flow}} from './family_physics.mjs';\n"
+          "const state = create({{gap: {}, pole_length: {}, viscosity: {}, yield_stress: {}}});\n"
+          "for (const v of [-0.2, -0.01, 0.003, 0.1]) console.log(plate_flow(state, 0, v, 0.3));\n",
+          other.gap, other.pole_length, other.viscosity, last));
+  const std::vector<double> given = numbers_in(run_program("node '" + path.string() + "'").output);
+  REQUIRE(given.size() == 4);
+  const PlateGap gap{other.pole_length, other.gap_area / other.gap, other.gap};
+  const double yielding = plate_yield_pressure(&gap, other.yield.at(0.3));
+  std::size_t k = 0;
+  for (const double v : {-0.2, -0.01, 0.003, 0.1}) {
+    const double viscous =
+        plate_newtonian_pressure(&gap, other.viscosity, other.piston_area * std::abs(v));
+    const double force = other.piston_area * plate_bingham_pressure(viscous, yielding);
+    CHECK_CLOSE(given[k++], v < 0 ? -force : force, 1e-12, 1e-12);
+  }
+}
+
+TEST_CASE("JavaScript: the band of a model is as wide in a page as in the library") {
+  if (!has_node()) return;
+  const TemporaryFolder folder;
+  const ForceBand band{.level = 0.9,
+                       .records = 6,
+                       .speeds = {0.02, 0.1},
+                       .drives = {0, 0.5, 2},
+                       .half_width = {3, 4, 5, 6, 7, 8, 10, 20, 40},
+                       .spread = 1.5};
+  const FamilyModel family = example_family_physics();
+  ExportedModel model = exported(family);
+  model.interval = band;
+  for (const ExportedFile& file : write_js(model, {.name = "x", .sample_time = 1e-3}))
+    folder.write(file.name, file.content);
+  const std::string loops = read_file(project_file("src/dashpot/report/page/loops.js"));
+  const auto path = folder.write("band.mjs", loops + R"(
+const {model} = await import('./x.mjs');
+console.log(model.interval.build_spread);
+for (const v of [-0.3, -0.02, 0, 0.05, 0.1]) for (const i of [-1, 0, 0.2, 0.5, 3]) console.log(half_width_of(model.interval, v, i, 2));
+)");
+  const std::vector<double> given = numbers_in(run_program("node '" + path.string() + "'").output);
+  REQUIRE(given.size() == 26);
+  CHECK(given[0] == family.family().build_spread);
+  std::size_t k = 1;
+  for (const double v : {-0.3, -0.02, 0., 0.05, 0.1})
+    for (const double i : {-1., 0., 0.2, 0.5, 3.})
+      CHECK_CLOSE(given[k++], band.half_width_at({0, v, i}, 2), 1e-12, 1e-12);
+
+  // A mean of networks has a spread that its code does not compute: no band rather than a wrong
+  // one.
+  const NetworkModel networks("mlp_one_sensor", {"velocity", "current"},
+                              {example_mlp(1), example_mlp(2)});
+  ExportedModel several = exported(networks);
+  several.interval = band;
+  folder.write("y.mjs", write_js(several, {.name = "y", .sample_time = 1e-3}).front().content);
+  const auto ask = folder.write(
+      "ask.mjs", "console.log((await import('./y.mjs')).model.interval === null ? 1 : 0);\n");
+  CHECK(numbers_in(run_program("node '" + ask.string() + "'").output) == std::vector<double>{1});
 }
 
 TEST_CASE("JavaScript: C means there what a compiler takes it for") {

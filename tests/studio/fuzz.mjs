@@ -1,6 +1,7 @@
 // Attacks the studio with requests changed by chance; by hand, since 10^6 take minutes.
 // usage: node fuzz.mjs DASHPOT [REQUESTS] [SEED]
 import assert from "node:assert/strict";
+import {execFileSync} from "node:child_process";
 import {mkdirSync, readdirSync, readFileSync, writeFileSync} from "node:fs";
 import {connect} from "node:net";
 import {join} from "node:path";
@@ -12,6 +13,8 @@ mkdirSync(folder);
 writeFileSync(join(folder, "run_1A.csv"), "time (s),displacement (mm),force (N)\n" +
   Array.from({length: 400}, (_, k) => `${k / 100},${(5 * Math.sin(k / 10)).toFixed(3)},${(300 * Math.cos(k / 10)).toFixed(1)}`).join("\n"));
 writeFileSync(join(outside, "secret"), "hush");
+// A fitted model, so that requests for one get as far as they can.
+execFileSync(program, ["rank", folder, "--models", "bingham", "--leave-out", "fraction=0.3", "--output", join(folder, "fits", "x")], {stdio: "ignore"});
 
 let state = seed >>> 0;
 const random = (n) => { state = (Math.imul(state, 1664525) + 1013904223) >>> 0; return Math.floor(state / 2 ** 32 * n); };
@@ -25,12 +28,14 @@ await send(studio.port, {path: "/api/recordings", headers: own});
 
 const nasty = ["..", "../", "%2e%2e%2f", "%00", "\0", "/etc/passwd", "secret", "-1", "1e309", "nan", "9".repeat(400), "{", "[[[[", "\"", "$(id)", ";id", "\r\n", "\xff\xfe", "x".repeat(3000), "", "--output", "&", "=", "%", "%f"];
 const paths = ["/", "/studio.js", "/api/fits", "/api/recordings", "/api/models", "/api/fitted", "/report/x", "/api/session", "/api/token", "/api/upload?name=a.csv",
-  "/api/view?record=0&x=time&y=force&from=0&to=1&width=100", "/api/view?record=0&x=velocity&y=force&width=9", "/api/traces?model=fits%2Fx%2Fmodels%2Fa.json", "/api/module?model=fits%2Fx%2Fmodels%2Fa.json",
+  "/api/view?record=0&x=time&y=force&from=0&to=1&width=100", "/api/view?record=0&x=velocity&y=force&width=9", "/api/traces?model=fits%2Fx%2Fmodels%2Fbingham.json", "/api/module?model=fits%2Fx%2Fmodels%2Fbingham.json",
   "/api/drive", `/api/driven?key=${"0".repeat(32)}&record=0&x=time&y=body`, "/api/machine", "/api/dampers", "/api/design", "/api/work/design", "/api/work/ride", "/api/result/design/x", "/report/design/x",
-  "/api/export", "/api/exports", "/api/exported?folder=x&file=y"];
+  "/api/export", "/api/exports", "/api/exported?folder=x&file=y", "/api/formats", "/api/correct", "/api/costs", "/api/changes?since=0", "/api/result/ride/x", "/loops.js", "/licences.txt"];
 const bodies = ["{}", `{"token":"x"}`, `{"action":"stop","name":"x"}`, `{"action":"start","name":"","models":["x"]}`, `{"action":"go_on","name":"../x"}`,
-  `{"plant":"savaresi_spelta","road":"step","duration":0.2}`, `{"plant":"savaresi_spelta","road":"iso8608,class=C","damper":"fits/x/models/a.json","settings":"motion_ratio=0.7"}`,
-  `{"action":"start","name":"../x","request":"damper: passenger_car"}`, `{"model":"fits/x/models/a.json","formats":["c"],"name":"x"}`];
+  `{"plant":"savaresi_spelta","road":"step","duration":0.2}`, `{"plant":"savaresi_spelta","road":"iso8608,class=C","damper":"fits/x/models/bingham.json","settings":"motion_ratio=0.7"}`,
+  `{"action":"start","name":"../x","request":"damper: passenger_car"}`, `{"model":"fits/x/models/bingham.json","formats":["c"],"name":"x"}`,
+  `{"action":"start","name":"../x","models":["bingham"],"from":{"model":"fits/x/models/bingham.json","parameters":{"f_c_a":900}}}`, `{"action":"start","name":"x","models":["bingham"],"from":{"model":"../secret","parameters":{"x":1e309}}}`,
+  `{"file":"../secret","set":"force.unit=kN"}`, `{"file":"run_1A.csv","set":"level=2; cut=0.5:3"}`, `{"action":"start","name":"x","plant":"savaresi_spelta","controllers":["skyhook"],"road":"step"}`];
 const heads = Object.entries(own).map(([name, value]) => `${name}: ${value}`);
 
 function changed(text) {
@@ -42,7 +47,7 @@ function changed(text) {
   return text;
 }
 
-// Several requests on one connection, as they come, without waiting.
+// One request on a connection or several, as they come, without waiting: behind a bad one the server reads no other.
 function attack(count) {
   return new Promise((done) => {
     const socket = connect(studio.port, "127.0.0.1");
@@ -52,6 +57,7 @@ function attack(count) {
       const body = random(2) ? changed(one_of(bodies)) : "";
       const lines = [changed(`${one_of(["GET", "POST", "POST", "HEAD", "PUT"])} ${changed(one_of(paths))} HTTP/1.1`),
         ...heads.map((head) => random(12) ? head : changed(head)), `Content-Length: ${random(9) ? Buffer.byteLength(body, "latin1") : one_of(["-1", "99", "1e3", "18446744073709551616"])}`];
+      if (k === count - 1) lines.push("Connection: close");
       if (!random(8)) lines.push(one_of(["Transfer-Encoding: chunked", "Content-Encoding: gzip", "Range: bytes=0-,5-,9-1", "Expect: 100-continue", `X: ${one_of(nasty)}`]));
       text += `${lines.join("\r\n")}\r\n\r\n${body}`;
     }
@@ -63,18 +69,20 @@ function attack(count) {
       done();
     });
     socket.setTimeout(300, over);
-    socket.end(Buffer.from(text, "latin1"));
+    // Some leave before they are answered.
+    random(8) ? socket.write(Buffer.from(text, "latin1")) : socket.end(Buffer.from(text, "latin1"));
   });
 }
 
 try {
-  const kPerConnection = 4, kSide = 16;
+  const kSeveral = 4, kSide = 40;
   let sent = 0;
   const begun = Date.now();
   await Promise.all(Array.from({length: kSide}, async () => {
     while (sent < requests && !died) {
-      sent += kPerConnection;
-      await attack(kPerConnection);
+      const count = random(4) ? 1 : kSeveral;
+      sent += count;
+      await attack(count);
     }
   }));
   assert.ok(!died, `the studio died after ${sent} requests`);

@@ -14,6 +14,12 @@ mkdirSync(join(folder, "fits", "own", "models"), {recursive: true});
 writeFileSync(join(outside, "secret.csv"), "hush");
 writeFileSync(join(folder, "fits", "own", "report.html"), "<p>report</p>");
 writeFileSync(join(folder, "fits", "own", "models", "plain.json"), "{}");
+// A fitted law, of recordings that are not the project's.
+const bench = make_folder();
+writeFileSync(join(bench, "run_1A.csv"), "time (s),displacement (mm),force (N)\n" +
+  Array.from({length: 400}, (_, k) => `${k / 100},${(5 * Math.sin(k / 10)).toFixed(3)},${(300 * Math.cos(k / 10)).toFixed(1)}`).join("\n"));
+execFileSync(program, ["identify", bench, "--models", "bingham", "--leave-out", "fraction=0.3", "--no-report", "--output", join(folder, "fits", "own")], {stdio: "ignore"});
+remove_folder(bench);
 // Work that nobody of this studio asked for, in a folder from elsewhere.
 for (const [kind, asked] of [["fits", {models: ["--output=/tmp/x"], leave_out: "", state: "stopped"}], ["designs", {request: "damper: ../../../secret.csv\nvary: {gap: {from: 1 mm, to: 2 mm}}\ngoals: [{minimise: mass}]", state: "stopped"}]]) {
   mkdirSync(join(folder, kind, "planted"), {recursive: true});
@@ -32,6 +38,7 @@ const {Cookie, ...stranger} = own;
 const host = own.Host, json = (value) => JSON.stringify(value);
 const upload = {...own, "Content-Type": "application/octet-stream"};
 const drive = (more) => json({plant: "savaresi_spelta", road: "step", duration: 1, ...more});
+const fit_from = (from, models = ["bingham"]) => json({action: "start", name: "moved", models, from});
 const design = (request, more) => json({action: "start", name: "x", request, ...more});
 const cases = [
   // [what, request, status]
@@ -112,6 +119,14 @@ const cases = [
   ["work of an unknown kind", {method: "POST", path: "/api/work/shell", headers: own, body: json({action: "start", name: "x"})}, 400],
   ["a ride above the project", {method: "POST", path: "/api/work/ride", headers: own, body: json({action: "start", name: "../x", plant: "savaresi_spelta", road: "step", controllers: ["skyhook"]})}, 400],
   ["a ride with an option for a controller", {method: "POST", path: "/api/work/ride", headers: own, body: json({action: "start", name: "x", plant: "savaresi_spelta", road: "step", controllers: ["--bound"]})}, 400],
+  // Fits from a start
+  ["a start above the project", {method: "POST", path: "/api/fits", headers: own, body: fit_from({model: "../secret.csv", parameters: {}})}, 400],
+  ["a start through a link", {method: "POST", path: "/api/fits", headers: own, body: fit_from({model: "fits/way-out/secret.csv", parameters: {}})}, 400],
+  ["a start that is no model", {method: "POST", path: "/api/fits", headers: own, body: fit_from({model: "fits/own/models/plain.json", parameters: {}})}, 400],
+  ["a start of another law", {method: "POST", path: "/api/fits", headers: own, body: fit_from({model: "fits/own/models/bingham.json", parameters: {}}, ["bouc_wen"])}, 400],
+  ["a start of two laws", {method: "POST", path: "/api/fits", headers: own, body: fit_from({model: "fits/own/models/bingham.json", parameters: {}}, ["bingham", "bouc_wen"])}, 400],
+  ["a start with a parameter of another law", {method: "POST", path: "/api/fits", headers: own, body: fit_from({model: "fits/own/models/bingham.json", parameters: {alpha: 1}})}, 400],
+  ["a start with a parameter that is infinite", {method: "POST", path: "/api/fits", headers: own, body: `{"action":"start","name":"moved","models":["bingham"],"from":{"model":"fits/own/models/bingham.json","parameters":{"f0":1e999}}}`}, 400],
   // Designs
   ["a design above the project", {method: "POST", path: "/api/work/design", headers: own, body: design("damper: passenger_car", {name: "../x"})}, 400],
   ["a damper's file above the project", {method: "POST", path: "/api/work/design", headers: own, body: design("damper: ../../../secret.yaml")}, 400],

@@ -2,7 +2,7 @@
 // is seen. usage: node sliders.mjs DASHPOT [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {existsSync} from "node:fs";
+import {existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 import {make_folder, remove_folder, start} from "./studio.mjs";
 
@@ -24,6 +24,13 @@ const scratch = make_folder(), folder = join(scratch, "project");
 const run = (...words) => execFileSync(program, words, {stdio: "ignore"});
 run("bench", "--motions", "10x1,5x3", "--levels", "0,1,2", "--cycles", "2", "--sample-rate", "200", "--output", join(folder, "recordings"));
 run("rank", folder, "--models", "bingham,tanh_kwok,bouc_wen", "--output", join(folder, "fits", "first"));
+// And a family of four dampers.
+const drawings = join(scratch, "drawings"), dampers = join(scratch, "dampers");
+mkdirSync(drawings);
+for (const gap of [1, 1.8]) for (const length of [6, 12])
+  writeFileSync(join(drawings, `d_${gap}_${length}.yaml`), `name: d_${gap}_${length}\nfluid: 140CG\nbore_diameter: 30 mm\nrod_diameter: 10 mm\ngap: ${gap} mm\npole_length: ${length} mm\npassive_length: 0 mm\ncore_area: 150 mm^2\nfriction: 15 N\n`);
+run("bench", "--family", drawings, "--levels", "0,0.5,1.5", "--motions", "20x0.6,8x2", "--cycles", "2", "--sample-rate", "30", "--velocity-sensor", "--zero-drift", "0", "--output", dampers);
+run("rank", dampers, "--models", "family_physics", "--leave-out", "each=gap", "--starts", "1", "--force-offset", "none", "--output", join(folder, "fits", "dampers"));
 const studio = await start(program, folder);
 const context = await playwright.chromium.launchPersistentContext(join(scratch, "profile"),
   {executablePath: kChromium, args: kFlags, viewport: {width: 1280, height: 900}, colorScheme: "light"});
@@ -73,6 +80,10 @@ try {
   await page.getByRole("tab", {name: "Sliders"}).click();
   await page.getByRole("radio", {name: "first: bouc_wen"}).check();
   await handle("alpha_a").waitFor();
+  const legend = plot("Force over velocity").locator(".legend");
+  await legend.getByText("measured").waitFor();
+  assert.match(await legend.textContent(), /measured.*90 % band.*as set/);
+  assert.match(await handle("Frequency").getAttribute("aria-valuetext"), /^[15] Hz$/, "the sliders stand where the record has them");
   assert.equal(await page.locator(".beyond").textContent(), "", "the view opens within the data");
 
   // Every sort of slider, by the keyboard; what leaves the data is said; and back.
@@ -91,6 +102,43 @@ try {
   const found = await latencies("Amplitude"), medians = [0, 20, 40, 60, 80].map((k) => share(found.slice(k, k + 20), 0.5));
   console.log(`a move is seen after ${share(found, 0.5).toFixed(0)} ms (median), ${share(found, 0.99).toFixed(0)} ms (99th percentile of ${kMoves})`);
   assert.ok(Math.min(...medians) <= kLongest, `a move is seen after ${medians} ms`);
+
+  // Another record moves the sliders; without one they stay within the data.
+  await moves(() => page.getByLabel("Measured record").selectOption({index: 5}), "another record");
+  await legend.getByText("measured").waitFor();
+  await page.getByLabel("Measured record").selectOption({label: "no record"});
+  await legend.getByText("measured").waitFor({state: "detached"});
+  assert.equal(await page.locator(".beyond").textContent(), "");
+
+  // A fit that begins where a hand has moved a law: the start is a model file, and the command line makes the same of it.
+  await page.getByRole("radio", {name: "first: bingham"}).check();
+  await page.getByRole("heading", {name: "Bingham", exact: true}).waitFor();
+  assert.ok(await page.getByRole("button", {name: "Fit from here"}).isDisabled(), "there is nothing to fit from yet");
+  await moves(() => handle("f_c_a").press("PageUp"), "f_c_a");
+  const moved = await handle("f_c_a").getAttribute("aria-valuetext");
+  await page.getByRole("button", {name: "Fit from here"}).click();
+  const section = page.locator("section", {has: page.getByRole("heading", {name: "bingham from here"})});
+  await section.getByText("done", {exact: true}).waitFor({timeout: 60000});
+  assert.match(await section.locator(".command").textContent(), /dashpot rank .*--models bingham --from .*start\.json.* --starts 1/);
+  const place = join(folder, "fits", "bingham from here"), own = join(scratch, "own");
+  const first_of = (file) => JSON.parse(readFileSync(file, "utf8")).model.parameters.f_c.coefficients[0];
+  assert.equal(`${+first_of(join(place, "start.json")).toPrecision(3)} N`, moved);
+  assert.notEqual(first_of(join(place, "start.json")), first_of(join(folder, "fits", "first", "models", "bingham.json")));
+  run("rank", folder, "--models", "bingham", "--from", join(place, "start.json"), "--starts", "1", "--output", own);
+  const plain = (text) => text.replace(/"(command|created)":.*/g, "");
+  assert.deepEqual(readdirSync(join(place, "models")), ["bingham.json"]);
+  assert.equal(plain(readFileSync(join(own, "models", "bingham.json"), "utf8")), plain(readFileSync(join(place, "models", "bingham.json"), "utf8")));
+  await page.getByRole("tab", {name: "Sliders"}).click();
+
+  // A family: its damper's numbers, the physics beside it, and what lies beyond its dampers.
+  await page.getByRole("radio", {name: "dampers: family_physics"}).check();
+  await handle("gap").waitFor();
+  assert.match(await legend.textContent(), /plate flow alone.*90 % band.*as set/);
+  for (const name of ["gap", "pole length", "viscosity", "yield stress", "build"])
+    await moves(async () => { await handle(name).focus(); for (let k = 0; k < 3; ++k) await page.keyboard.press("PageUp"); }, name);
+  await moves(async () => { await handle("gap").focus(); await page.keyboard.press("Home"); }, "the least gap");
+  assert.match(await page.locator(".beyond").textContent(), /gap 0\.6 mm, dampers of the fit 1 to 1\.8/);
+  if (screenshots) await page.screenshot({path: join(screenshots, "sliders-family.png"), fullPage: true});
 
   // Another model; the sizes and themes that people have.
   await page.getByRole("radio", {name: "first: bingham"}).check();

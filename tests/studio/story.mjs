@@ -1,11 +1,12 @@
 // One story in headless Chromium, from an empty project: recordings are chosen and dropped in, a unit is corrected,
-// models are fitted, compared, driven in a car and exported, a damper is designed; the studio ends with a fit running
-// and finds everything again.
+// models are fitted, compared, moved by sliders, driven in a car and exported, a damper is designed; the studio ends with
+// a fit running and finds everything again.
 // usage: node story.mjs DASHPOT [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import {cpSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
+import {check_reach} from "./reach.mjs";
 import {make_folder, remove_folder, start} from "./studio.mjs";
 
 const kChromium = "/usr/bin/chromium";
@@ -151,7 +152,7 @@ async function fitting(page) {
   assert.ok(existsSync(join(folder, "fits", "four models", "report.html")));
 }
 
-// Models and leaderboard are those of the command line: its kept fits are read again by the same command.
+// Models and report are those of the command line, to the bit but for when and how fast they were made.
 async function same_models(page) {
   const words = JSON.parse(await page.evaluate(() => fetch("/api/fits").then((r) => r.text()))).fits.find((fit) => fit.name === "four models").arguments;
   const own = join(scratch, "own"), at = words.indexOf("--output");
@@ -161,6 +162,9 @@ async function same_models(page) {
   const plain = (text) => text.replace(/"(command|created)":.*/g, "");
   for (const name of readdirSync(join(own, "models")))
     assert.equal(plain(readFileSync(join(own, "models", name), "utf8")), plain(readFileSync(join(folder, "fits", "four models", "models", name), "utf8")), name);
+  const kOfTime = ["date", "command", "created", "wall_seconds", "seconds", "nanoseconds_per_step"];
+  const report = (place) => JSON.stringify(JSON.parse(readFileSync(join(place, "report.json"), "utf8")), (key, value) => kOfTime.includes(key) ? undefined : value);
+  assert.equal(report(own), report(join(folder, "fits", "four models")));
 }
 
 async function comparing(page) {
@@ -171,6 +175,28 @@ async function comparing(page) {
   const [download] = await Promise.all([page.waitForEvent("download"), plot(page, "Force over velocity").getByRole("button", {name: "SVG"}).click()]);
   assert.match(readFileSync(await download.path(), "utf8"), /^<svg .*<path clip-path/s);
   await shoot(page, "6-compare");
+}
+
+// A slider is moved, and its loop moves within 50 ms, beside the measured one: of several moves the quickest counts, since
+// the machine has other work.
+async function sliding(page) {
+  await tab(page, "Sliders");
+  await page.getByRole("radio", {name: "four models: bouc_wen"}).check();
+  await page.locator(".legend", {hasText: "measured"}).first().waitFor();
+  await until_ink(plot(page, "Force over velocity"));
+  const took = await page.getByRole("slider", {name: "Amplitude"}).evaluate(async (input) => {
+    const picture = () => document.querySelector("figure canvas").toDataURL(), frame = () => new Promise((next) => requestAnimationFrame(next)), found = [];
+    for (let k = 0; k < 12; ++k) {
+      const before = picture(), begin = performance.now();
+      input.value = +input.value + (k % 2 ? -20 : 20);
+      input.dispatchEvent(new Event("input", {bubbles: true}));
+      for (let now = await frame(); ; now = await frame()) if (picture() !== before || now - begin > 5000) break;
+      found.push(performance.now() - begin);
+    }
+    return found;
+  });
+  assert.ok(Math.min(...took) <= 50, `a move is seen after ${took} ms`);
+  await shoot(page, "6b-sliders");
 }
 
 // A project's model in a quarter car beside another one: what the page shows is what the command says.
@@ -310,9 +336,15 @@ async function restart(page) {
 }
 
 async function small_and_dark(page) {
+  for (const view of ["Recordings", "Fits", "Compare", "Sliders", "Machine", "Design", "Export"]) {
+    await tab(page, view);
+    await page.locator("main .work").waitFor();
+    console.log(await check_reach(page, view));
+  }
   await tab(page, "Recordings");
   await page.getByRole("button", {name: "Dark"}).click();
   await until_ink(plot(page, "Force over velocity"));
+  await check_reach(page, "Recordings in the dark");
   await shoot(page, "10-dark");
   await page.setViewportSize({width: 390, height: 844});
   for (const view of ["Machine", "Design", "Export", "Recordings"]) {
@@ -328,7 +360,7 @@ async function small_and_dark(page) {
 try {
   const page = await open(studio.address);
   assert.equal(new URL(page.url()).hash, "", "the token leaves the address");
-  for (const step of [recordings, correction, same_dataset_file, fitting, same_models, comparing, driving, designing, exporting]) {
+  for (const step of [recordings, correction, same_dataset_file, fitting, same_models, comparing, sliding, driving, designing, exporting]) {
     const begun = Date.now();
     await step(page);
     console.log(`${step.name}: ${Date.now() - begun} ms`);

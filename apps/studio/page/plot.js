@@ -17,6 +17,9 @@ export function resolved(name) {
   return value;
 }
 
+// Where a curve breaks: null as JSON has it, or not a number.
+const is_gap = (value) => value === null || Number.isNaN(value);
+
 // Three digits tell a place on an axis; a narrow window needs more.
 export function tick_text(values) {
   const span = Math.abs(values.at(-1) - values[0]) / Math.max(1, values.length - 1);
@@ -46,7 +49,7 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
     const [xs, ys] = u.data[index], lines = new Path2D();
     let pen = false;
     for (let i = 0; i < xs.length; ++i) {
-      if (ys[i] === null || xs[i] === null) { pen = false; continue; }
+      if (is_gap(xs[i]) || is_gap(ys[i])) { pen = false; continue; }
       const x = u.valToPos(xs[i], "x", true), y = u.valToPos(ys[i], "y", true);
       pen ? lines.lineTo(x, y) : lines.moveTo(x, y);
       pen = true;
@@ -58,6 +61,7 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
     u.ctx.strokeStyle = series[index - 1].stroke;
     u.ctx.lineWidth = (series[index - 1].width ?? 1.5) * devicePixelRatio;
     u.ctx.lineJoin = "round";
+    u.ctx.setLineDash((series[index - 1].dash ?? []).map((length) => length * devicePixelRatio));
     u.ctx.stroke(lines);
     u.ctx.restore();
   };
@@ -78,7 +82,7 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
 
 export function extent(lists, share = 0.04, is_log = false) {
   let low = Infinity, high = -Infinity;
-  for (const list of lists) for (const value of list) if (value !== null && (!is_log || value > 0)) { low = Math.min(low, value); high = Math.max(high, value); }
+  for (const list of lists) for (const value of list) if (!is_gap(value) && (!is_log || value > 0)) { low = Math.min(low, value); high = Math.max(high, value); }
   if (low > high) return is_log ? [0.1, 1] : [0, 1];
   if (is_log) return [low / 1.3, high * 1.3];
   const room = (high - low || Math.abs(high) || 1) * share;
@@ -104,12 +108,12 @@ export function svg_of({title, series, x_label, y_label, x_range, is_log}) {
   series.forEach((s, k) => {
     let path = "", pen = false;
     for (let i = 0; i < s.x.length; ++i) {
-      if (s.y[i] === null || s.x[i] === null) { pen = false; continue; }
+      if (is_gap(s.x[i]) || is_gap(s.y[i])) { pen = false; continue; }
       path += `${pen ? "L" : "M"}${px(s.x[i]).toFixed(2)} ${py(s.y[i]).toFixed(2)}`;
       pen = true;
     }
     const ink = kInk[s.colour % 7];
-    lines.push(`<path clip-path="url(#c)" d="${path}" fill="none" stroke="${ink}" stroke-width="1.5" stroke-linejoin="round"/>`);
+    lines.push(`<path clip-path="url(#c)" d="${path}" fill="none" stroke="${ink}" stroke-width="${s.width ?? 1.5}"${s.dash ? ` stroke-dasharray="${s.dash.join(" ")}"` : ""} stroke-linejoin="round"/>`);
     if (s.label) lines.push(`<path d="M${left + 10} ${top + 14 + 16 * k}h18" stroke="${ink}" stroke-width="3"/><text x="${left + 34}" y="${top + 18 + 16 * k}">${text(s.label)}</text>`);
   });
   lines.push(`<rect x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}" fill="none" stroke="#888"/>`,
@@ -126,7 +130,7 @@ export function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-// title, x_label, y_label, series: [{label, colour, x, y}], x_range, y_range, on_zoom(from, to), theme.
+// title, x_label, y_label, series: [{label, colour, x, y, width, dash}], x_range, y_range, on_zoom(from, to), theme.
 export function Plot({title, x_label, y_label, series, x_range, y_range, on_zoom, height = 220, theme, keep, is_log, wide}) {
   const frame = useRef(), drawn = useRef();
   const [width, set_width] = useState(0);
@@ -194,7 +198,7 @@ export function Plot({title, x_label, y_label, series, x_range, y_range, on_zoom
   const figure = {title, series, x_label, y_label, x_range, is_log};
   return html`<figure class=${wide ? "wide" : ""}>
     <figcaption><h3>${title}</h3>
-      ${labelled.length > 0 && html`<div class="legend">${labelled.map((s) => html`<span><i class="swatch colour-${s.colour === 0 ? 0 : (s.colour - 1) % 6 + 1}"></i>${s.label}</span>`)}</div>`}
+      ${labelled.length > 0 && html`<div class="legend">${labelled.map((s) => html`<span><i class="swatch ${s.dash ? "dashed" : ""} colour-${s.colour === 0 ? 0 : (s.colour - 1) % 6 + 1}"></i>${s.label}</span>`)}</div>`}
       ${keep && html`<span class="row"><button class="plain" onClick=${() => save(`${keep}.svg`, svg_of(figure), "image/svg+xml")}>SVG</button>
         <button class="plain" onClick=${() => frame.current.querySelector("canvas").toBlob((blob) => save(`${keep}.png`, blob))}>PNG</button></span>`}
     </figcaption>

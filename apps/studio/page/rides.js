@@ -7,13 +7,13 @@ import {useResult, useWork, WorkHead} from "/work.js";
 const kUsual = ["skyhook", "skyhook_linear", "groundhook", "add", "pdd", "sh_add", "mix1"];
 const percent = (value, of) => 100 * value / of;
 
-// The proven bound as a line: below and left of it no controller gets, whatever it weighs. In shares of passive.
-function bound_line(possible, passive) {
+// The proven bound as a line up to `reach`: below and left of it no controller gets, whatever it weighs. In shares of passive.
+function bound_line(possible, passive, reach) {
   const a = passive.body_acceleration ** 2, f = 1 / possible.find((one) => one.comfort_weight === 0)?.holding_weight;
   const proven = possible.filter((one) => one.proven).map((one) => ({comfort: one.comfort_weight * a, holding: one.holding_weight * f, bound: one.bound}));
   const least = proven.filter((one) => one.holding === 0).map((one) => Math.sqrt(one.bound / one.comfort))[0] ?? 0;
   const line = {x: [], y: []};
-  for (let share = least; share <= 1.2; share += 0.01) {
+  for (let share = least; share <= reach; share += 0.01) {
     line.x.push(100 * share);
     line.y.push(100 * Math.sqrt(Math.max(0, ...proven.filter((one) => one.holding > 0).map((one) => (one.bound - one.comfort * share ** 2) / one.holding))));
   }
@@ -28,12 +28,13 @@ function Ride({one, act, theme}) {
   const possible = result?.possible ?? [], passive = result?.passive.road;
   const share = (ridden, extra) => ({x: percent(ridden.road.body_acceleration, passive.body_acceleration), y: percent(ridden.road.tyre_load, passive.tyre_load), label: ridden.name, ...extra});
   const unit = possible.find((p) => p.comfort_weight === 0);
+  const shares = result && possible.length > 0 ? [share(result.passive, {colour: 0, size: 6, is_named: true}), ...result.controlled.map((c, k) => share(c, {colour: k + 1, size: 5, is_named: true}))] : [];
+  const reach = Math.max(1.2, ...shares.map(({x}) => 1.1 * x / 100).filter(Number.isFinite));
   return html`<section class="fit" aria-label="Ride ${one.name}"><${WorkHead} kind="ride" one=${one} act=${act} again="Ride again" />
     ${result && html`<div class="plots">
       <${Scatter} title="Comfort against road holding" x_label="Weighted body acceleration (m/s²)" y_label="Dynamic tyre load (%)" points=${points} lines=${held} chosen=${chosen} on_choose=${set_chosen} theme=${theme} keep=${one.name} wide=${possible.length === 0} />
       ${possible.length > 0 && unit && html`<${Scatter} title="What is possible" x_label="Body acceleration (% of passive)" y_label="Tyre force (% of passive)" theme=${theme} keep=${`${one.name}-possible`}
-        points=${[share(result.passive, {colour: 0, size: 6, is_named: true}), ...result.controlled.map((c, k) => share(c, {colour: k + 1, size: 5, is_named: true}))]}
-        lines=${[{...bound_line(possible, passive), colour: 2, legend: "proven bound"}, {x: possible.map((p) => percent(p.at_optimum.body_acceleration_rms, passive.body_acceleration)), y: possible.map((p) => 100 * p.at_optimum.tyre_force_rms * Math.sqrt(unit.holding_weight)), colour: 1, legend: "optimum, road known"}]} />`}
+        points=${shares} lines=${[{...bound_line(possible, passive, reach), colour: "ink", legend: "proven bound", is_edge: true}, {x: possible.map((p) => percent(p.at_optimum.body_acceleration_rms, passive.body_acceleration)), y: possible.map((p) => 100 * p.at_optimum.tyre_force_rms * Math.sqrt(unit.holding_weight)), colour: 0, dash: "5 4", legend: "optimum, road known"}]} />`}
       </div>
       ${chosen !== undefined && points[chosen] && html`<p class="note" role="status">${points[chosen].label}: ${points[chosen].x.toPrecision(3)} m/s² weighted, ${points[chosen].y.toPrecision(3)} % tyre load.</p>`}`}
     ${one.arguments.length > 0 && html`<${Command} words=${one.arguments} />`}

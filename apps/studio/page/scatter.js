@@ -15,7 +15,8 @@ function extent(values) {
 function places_of_words(points, px, py, width) {
   const taken = [];
   return points.map((p) => {
-    const is_right = px(p.x) > width - 110, x = px(p.x) + (is_right ? -8 : 8), reach = 6.2 * p.label.length, from = is_right ? x - reach : x;
+    const reach = 6.2 * p.label.length, is_right = px(p.x) + 8 + reach > width && px(p.x) - 8 - reach > kEdge.left;
+    const x = px(p.x) + (is_right ? -8 : 8), from = is_right ? x - reach : x;
     const is_free = (y) => taken.every((t) => Math.abs(t.y - y) > 11 || t.from > from + reach || t.from + t.reach < from);
     const y = [-6, 12, -18, 24, -30, 36].map((shift) => py(p.y) + shift).find(is_free) ?? py(p.y) - 6;
     taken.push({y, from, reach});
@@ -23,7 +24,8 @@ function places_of_words(points, px, py, width) {
   });
 }
 
-// points: [{x, y, label, colour, size, is_faint}], lines: [{x, y, label, colour, dash}]; chosen: the place of a point.
+// points: [{x, y, label, colour, size, is_faint}], lines: [{x, y, label, colour, dash, is_edge}]; an edge goes on upwards, and
+// what lies left of it and below is shaded. chosen: the place of a point. A colour is that of a series, or "ink".
 export function Scatter({title, x_label, y_label, points, lines = [], chosen, on_choose, keep, height = 340, theme, wide}) {
   const frame = useRef(), [width, set_width] = useState(0);
   useEffect(() => {
@@ -50,21 +52,24 @@ export function Scatter({title, x_label, y_label, points, lines = [], chosen, on
     on_choose(order[Math.min(order.length - 1, Math.max(0, order.indexOf(chosen) + step))]);
   };
   const grid = resolved("--grid"), muted = resolved("--muted"), ink = resolved("--ink");
-  const xs = nice_ticks(x0, x1, Math.max(3, Math.min(6, width / 90))), ys = nice_ticks(y0, y1), x_texts = tick_text(xs), y_texts = tick_text(ys);
-  const path = (line) => line.x.map((x, i) => `${i ? "L" : "M"}${px(x).toFixed(1)} ${py(line.y[i]).toFixed(1)}`).join("");
+  const xs = nice_ticks(x0, x1, Math.max(4, Math.min(6, width / 90))), ys = nice_ticks(y0, y1), x_texts = tick_text(xs), y_texts = tick_text(ys);
+  const path = (line) => line.x.map((x, i) => `${i ? "L" : line.is_edge ? `M${px(x).toFixed(1)} ${kEdge.top}L` : "M"}${px(x).toFixed(1)} ${py(line.y[i]).toFixed(1)}`).join("");
+  const shade = (line) => `${path(line)}V${height - kEdge.bottom}H${kEdge.left}V${kEdge.top}Z`, stroke = (of) => of === "ink" ? ink : colour(of);
+  const swatch = (of) => of === "ink" ? "ink" : of === 0 ? 0 : (of - 1) % 6 + 1;
   const mark = chosen === undefined ? undefined : points[chosen];
   const labelled = [...lines, ...points].filter((one) => one.legend);
   const store = () => save(`${keep}.svg`, frame.current.querySelector("svg").outerHTML.replace("<svg ", `<svg xmlns="http://www.w3.org/2000/svg" `), "image/svg+xml");
   return html`<figure class=${wide ? "wide" : ""}>
     <figcaption><h3>${title}</h3>
-      ${labelled.length > 0 && html`<div class="legend">${labelled.map((one) => html`<span><i class="swatch colour-${one.colour === 0 ? 0 : (one.colour - 1) % 6 + 1}"></i>${one.legend}</span>`)}</div>`}
+      ${labelled.length > 0 && html`<div class="legend">${labelled.map((one) => html`<span><i class="swatch ${one.dash ? "dashed" : ""} colour-${swatch(one.colour)}"></i>${one.legend}</span>`)}</div>`}
       ${keep && html`<button class="plain" onClick=${store}>SVG</button>`}</figcaption>
     <div class="canvas" ref=${frame} tabindex=${on_choose ? 0 : -1} role="img" onClick=${pick} onKeyDown=${on_key}
       aria-label="${title}: ${y_label} over ${x_label}, ${points.length} points${on_choose ? "; arrow keys pick one" : ""}${mark ? `; picked: ${mark.label}` : ""}">
     ${width > 40 && html`<svg key=${theme} width=${width} height=${height} viewBox="0 0 ${width} ${height}" font-family="system-ui, sans-serif" font-size="11">
       ${xs.map((x, i) => html`<g><path d="M${px(x)} ${kEdge.top}V${height - kEdge.bottom}" stroke=${grid} /><text x=${px(x)} y=${height - kEdge.bottom + 15} text-anchor="middle" fill=${muted}>${x_texts[i]}</text></g>`)}
       ${ys.map((y, i) => html`<g><path d="M${kEdge.left} ${py(y)}H${width - kEdge.right}" stroke=${grid} /><text x=${kEdge.left - 6} y=${py(y) + 4} text-anchor="end" fill=${muted}>${y_texts[i]}</text></g>`)}
-      ${lines.map((line) => html`<path d=${path(line)} fill="none" stroke=${colour(line.colour)} stroke-width="1.5" stroke-dasharray=${line.dash ?? "none"} />`)}
+      ${lines.filter((line) => line.is_edge).map((line) => html`<path d=${shade(line)} fill=${ink} fill-opacity="0.08" />`)}
+      ${lines.map((line) => html`<path d=${path(line)} fill="none" stroke=${stroke(line.colour)} stroke-width="1.5" stroke-dasharray=${line.dash ?? "none"} />`)}
       ${points.filter(is_inside).map((p) => html`<circle cx=${px(p.x)} cy=${py(p.y)} r=${p.size ?? 4} fill=${colour(p.colour)} fill-opacity=${p.is_faint ? 0.28 : 0.9}><title>${p.label}</title></circle>`)}
       ${places_of_words(points.filter((p) => is_inside(p) && p.is_named), px, py, width).map((word) => html`<text x=${word.x} y=${word.y} text-anchor=${word.anchor} fill=${ink}>${word.label}</text>`)}
       ${mark && is_inside(mark) && html`<circle cx=${px(mark.x)} cy=${py(mark.y)} r="9" fill="none" stroke=${ink} stroke-width="2" />`}

@@ -28,7 +28,8 @@ ExportedModel exported_model(const ModelFile& file) {
                          .sample_time = file.sample_time,
                          .origin = from.created.empty()
                                        ? from.dataset + ": " + from.citation
-                                       : "Identified from " + from.dataset + ", " + from.created};
+                                       : "Identified from " + from.dataset + ", " + from.created,
+                         .interval = file.interval};
   if (const std::string active = activity(dissipation_of(file), file.drive_unit); !active.empty())
     exported.origin += ". WARNING: " + active;
   if (const auto* family = model_as<FamilyModel>(*file.model))

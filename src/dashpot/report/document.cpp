@@ -190,7 +190,17 @@ Value sliders_json(const DocumentSliders& sliders, std::size_t first) {
   Value models = Value::array();
   for (const DocumentSliders::Model& model : sliders.models)
     models.push_back(Value::object({{"name", model.name}, {"program", first++}}));
-  return Value::object({{"models", std::move(models)}});
+
+  Value loops = Value::array();
+  for (const DocumentSliders::Loop& loop : sliders.loops)
+    loops.push_back(Value::object({{"name", loop.name},
+                                   {"current", loop.drive},
+                                   {"conditions", conditions_json(loop.conditions)},
+                                   {"displacement", loop.displacement},
+                                   {"velocity", loop.velocity},
+                                   {"force", loop.force},
+                                   {"first", loop.first}}));
+  return Value::object({{"models", std::move(models)}, {"records", std::move(loops)}});
 }
 
 /// Those of the parts that a page shows.
@@ -262,6 +272,12 @@ Value page_json(const Document& document, std::vector<JsText>& programs) {
 }
 
 }  // namespace
+
+Value conditions_json(const Conditions& conditions) {
+  Value value = Value::object();
+  for (const auto& [name, number] : conditions) value.add(name, number);
+  return value;
+}
 
 void add_row(DocumentTable& table, const std::vector<DocumentCell>& cells) {
   std::vector<std::string> texts;

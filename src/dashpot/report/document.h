@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dashpot/base/escape.h"
+#include "dashpot/damper_model.h"
 #include "dashpot/report/text_table.h"
 #include "dashpot/value.h"
 
@@ -54,6 +55,9 @@ struct DocumentCell {
   double key = std::numeric_limits<double>::quiet_NaN();
 };
 void add_row(DocumentTable& table, const std::vector<DocumentCell>& cells);
+
+/// {"gap": 0.001, ...}, in SI.
+Value conditions_json(const Conditions& conditions);
 
 /// Samples that several series of a page share, such as the time of a record.
 struct SharedSamples {
@@ -131,7 +135,16 @@ struct DocumentSliders {
     std::string name;
     JsText program;  ///< as export/js/js.h writes it
   };
+  /// A record at constant drive, whose loop stands under those of the models. Of its samples in
+  /// Document::samples those from `first` on.
+  struct Loop {
+    std::string name;
+    double drive = 0;       ///< A or V
+    Conditions conditions;  ///< of the record: of a family they state its damper
+    std::size_t displacement = 0, velocity = 0, force = 0, first = 0;
+  };
   std::vector<Model> models;
+  std::vector<Loop> loops = {};
 };
 
 /// Lines of words. Without a title one paragraph each, else a list below the title.

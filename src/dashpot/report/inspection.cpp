@@ -228,7 +228,7 @@ Value json_inspection(const Dataset& dataset, const std::vector<VelocityCheck>& 
   for (const Record& r : dataset.records) {
     std::vector<std::string> channels;
     for (const Channel& channel : r.channels) channels.push_back(channel.name);
-    records.push_back(Value::object(
+    Value record = Value::object(
         {{"name", r.name},
          {"source", r.source},
          {"condition", r.condition},
@@ -236,7 +236,9 @@ Value json_inspection(const Dataset& dataset, const std::vector<VelocityCheck>& 
          {"samples", r.size()},
          {"sample_time", r.sample_time},
          {"channels", Value::array(channels)},
-         {"notes", Value::array(r.notes)}}));
+         {"notes", Value::array(r.notes)}});
+    if (!r.conditions.empty()) record.add("conditions", conditions_json(r.conditions));
+    records.push_back(std::move(record));
   }
 
   // Files that were not read, and how well velocity can be derived.

@@ -124,7 +124,7 @@ std::string result_text(const RankedModel& model, const RecordResult& result) {
 
 /// One model on one record, as the reader of the page chooses.
 DocumentSection closer_section(const ReportInput& input, std::vector<SharedSamples>& samples,
-                               std::string& display) {
+                               std::string& display, std::vector<DocumentSliders::Loop>& loops) {
   const Ranking& ranking = input.ranking;
   const std::vector<ShownRecord> records = shown_records(ranking);
   DocumentChoice model{"model", "Model", {}}, record{"record", "Record", {}};
@@ -157,7 +157,7 @@ DocumentSection closer_section(const ReportInput& input, std::vector<SharedSampl
       std::ranges::find(records, ranking.models.front().left_out.worst_record, &ShownRecord::name);
   if (worst != records.end()) record.chosen = static_cast<std::size_t>(worst - records.begin());
   section.choices = {std::move(model), std::move(record)};
-  section.figures = record_figures(input, samples, display);
+  section.figures = record_figures(input, samples, display, loops);
   for (DocumentFigure& figure : energy_figures(ranking))
     section.figures.push_back(std::move(figure));
   return section;
@@ -260,8 +260,9 @@ Document ranking_document(const ReportInput& input) {
     document.sections.push_back(ranking_section(ranking));
     for (DocumentSection& section : interval_sections(ranking))
       document.sections.push_back(std::move(section));
-    document.sections.push_back(closer_section(input, document.samples, display));
-    if (std::optional<DocumentSection> sliders = slider_section(input))
+    std::vector<DocumentSliders::Loop> loops;
+    document.sections.push_back(closer_section(input, document.samples, display, loops));
+    if (std::optional<DocumentSection> sliders = slider_section(input, std::move(loops)))
       document.sections.push_back(std::move(*sliders));
     document.sections.push_back({.name = "overview",
                                  .title = "Across all records",

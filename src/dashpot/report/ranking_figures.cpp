@@ -175,6 +175,18 @@ class RecordPanels {
                                .shared = SharedCurve{.x = x, .y = measured, .first = from},
                                .when = condition});
 
+    // Sliders show it once, though it may be among the records of the fit and those left out.
+    const auto record = std::ranges::find(input_.dataset.records, first.record, &Record::name);
+    if (axes.size() == 2 && first.drive_level && record != input_.dataset.records.end() &&
+        std::ranges::find(loops_, first.record, &DocumentSliders::Loop::name) == loops_.end())
+      loops_.push_back({.name = first.record,
+                        .drive = *first.drive_level,
+                        .conditions = record->conditions,
+                        .displacement = axes[1].second,
+                        .velocity = axes[0].second,
+                        .force = measured,
+                        .first = from});
+
     // Each model's force on it.
     for (const auto& [model, result] : curves.models) {
       const std::size_t modelled = keep(result->modelled, curves);
@@ -204,6 +216,7 @@ class RecordPanels {
     }
   }
 
+  const std::vector<DocumentSliders::Loop>& loops() const { return loops_; }
   std::vector<DocumentFigure> take() {
     return {{.name = "force", .title = {}, .caption = {}, .panels = {force_}},
             {.name = "loops",
@@ -309,6 +322,7 @@ class RecordPanels {
 
   const ReportInput& input_;
   std::vector<SharedSamples>& samples_;
+  std::vector<DocumentSliders::Loop> loops_;
   FigurePanel force_, velocity_, displacement_, residual_, histogram_, correlation_;
 };
 
@@ -465,7 +479,8 @@ DocumentTable heat_map(const RankedModel& model, const std::string& unit) {
 
 std::vector<DocumentFigure> record_figures(const ReportInput& input,
                                            std::vector<SharedSamples>& samples,
-                                           std::string& display) {
+                                           std::string& display,
+                                           std::vector<DocumentSliders::Loop>& loops) {
   // Choose the samples that are shown, record by record.
   std::vector<RecordCurves> curves = curves_by_record(input.ranking);
   std::size_t thinned = 0;
@@ -490,6 +505,7 @@ std::vector<DocumentFigure> record_figures(const ReportInput& input,
         together.push_back(&other);
     panels.add(one, together);
   }
+  loops = panels.loops();
   return panels.take();
 }
 

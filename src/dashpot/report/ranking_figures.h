@@ -7,10 +7,12 @@
 namespace dashpot {
 
 /// Force, loops and residual of the chosen model on the chosen record. The curves, thinned so that
-/// all pages stay small, go into `samples`; `display` says in a sentence what was thinned.
+/// all pages stay small, go into `samples`; `display` says in a sentence what was thinned; `loops`
+/// are those of the records at constant drive, where displacement and velocity are known.
 std::vector<DocumentFigure> record_figures(const ReportInput& input,
                                            std::vector<SharedSamples>& samples,
-                                           std::string& display);
+                                           std::string& display,
+                                           std::vector<DocumentSliders::Loop>& loops);
 
 /// Where a passive network's energy goes over the widest cycle of the chosen record; no figure
 /// where no model is one.

@@ -12,9 +12,10 @@ constexpr std::size_t kMostProgram = 200'000, kMostPrograms = 1'000'000;
 
 }  // namespace
 
-std::optional<DocumentSection> slider_section(const ReportInput& input) {
+std::optional<DocumentSection> slider_section(const ReportInput& input,
+                                              std::vector<DocumentSliders::Loop> loops) {
   if (!input.program) return std::nullopt;
-  DocumentSliders sliders;
+  DocumentSliders sliders{.models = {}, .loops = std::move(loops)};
   std::vector<std::string> left_out;
   std::size_t size = 0;
   for (const RankedModel& ranked : input.ranking.models) {
@@ -45,7 +46,7 @@ std::optional<DocumentSection> slider_section(const ReportInput& input) {
       .paragraphs = {},
       .lead =
           "The fitted models, at work in this page: set a sine and a constant current, or a "
-          "parameter of a law, and see the loops change. Arrow keys move a slider, too.",
+          "parameter, and see the loops change over a measured one. Arrow keys move a slider, too.",
       .sliders = std::move(sliders),
       .audience = Audience::Page};
   if (!left_out.empty())

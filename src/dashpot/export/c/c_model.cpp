@@ -62,10 +62,14 @@ constexpr std::array kCodes{
 
 }  // namespace
 
+std::vector<CParameter> c_parameters(const DamperModel& model) {
+  if (const auto* law = model_as<LawModel>(model)) return c_parameters(*law);
+  if (const auto* family = model_as<FamilyModel>(model)) return c_parameters(*family);
+  return {};
+}
+
 bool has_settable(const DamperModel& model) {
-  if (model_as<LawModel>(model)) return true;
-  const auto* family = model_as<FamilyModel>(model);
-  return family && !c_parameters(*family).empty();
+  return model_as<LawModel>(model) || !c_parameters(model).empty();
 }
 
 CModel c_model(const DamperModel& model, bool settable) {

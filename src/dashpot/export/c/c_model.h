@@ -41,6 +41,8 @@ std::vector<CParameter> c_parameters(const LawModel& model);
 /// Of a family by physics: the numbers of its member, with ranges as wide as the family and half as
 /// much again; none of another family, whose code is of one damper.
 std::vector<CParameter> c_parameters(const FamilyModel& model);
+/// Of whichever it is; none of another kind.
+std::vector<CParameter> c_parameters(const DamperModel& model);
 /// Whether the model has parameters that can be set at all.
 bool has_settable(const DamperModel& model);
 
@@ -60,6 +62,9 @@ CModel c_passive_network(const PassiveNetworkModel& model);
 CModel c_fuzzy(const FuzzyModel& model);
 CModel c_hybrid(const HybridModel& model);
 CModel c_family(const FamilyModel& model, bool settable = false);
+/// Behind a settable c_family() by physics: double family_plate_flow(const DamperInput* input,
+/// const double* state), the force of the plate flow alone, N, without what the fit has learnt.
+std::string c_family_plate_flow(const FamilyModel& model);
 
 // Parts that several kinds have: C definitions whose names begin with `name`.
 

@@ -190,8 +190,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
       .grid = model.model.feedback_step()};
   if (settable) {
     const auto* law = model_as<LawModel>(model.model);
-    source.parameters =
-        law ? c_parameters(*law) : c_parameters(*model_as<FamilyModel>(model.model));
+    source.parameters = c_parameters(model.model);
     source.first_parameter = source.state_size;
     source.state_size += source.parameters.size() + (law && law->lag_rate() <= 0 ? 1 : 0);
   }

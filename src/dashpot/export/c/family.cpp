@@ -160,7 +160,10 @@ constexpr const char* kNumbersBehind =
   return (const FamilyNumbers*)(const void*)(state + @size@);
 }
 
-static void model_defaults(double* state) { memcpy(state + @size@, &kFamily, sizeof kFamily); }
+static void model_defaults(double* state) {
+  FamilyNumbers* numbers = (FamilyNumbers*)(void*)(state + @size@);
+  *numbers = kFamily;
+}
 
 )";
 
@@ -176,7 +179,7 @@ static void @stem@_rest(const DamperInput* input, double* state) {
 static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt, double* state) {
   const FamilyNumbers* m = @numbers@;
   const PhysicsMember member = {m->piston_area, m->gap_area, m->gap, m->pole_length, m->viscosity};
-  const double yield_stress = @yield@@scale@;
+  const double yield_stress = @yield@;
   const PhysicsElement element =
       physics_element(&kReference, kNumbers, kDeviation, &member, yield_stress, to->current);
   physics_advance(&element, from->velocity, to->velocity, dt, state);
@@ -209,6 +212,14 @@ static void model_advance(const DamperInput* from, const DamperInput* to, double
 
 )";
 
+/// The yield stress at an input's current, with what stands behind the state.
+std::string yield_of(const FamilyModel& model, const std::string& input) {
+  const double last = model.member().yield.stresses.back();
+  return "yield_stress_at(kYieldCurrents, kYieldStresses, FAMILY_YIELD_POINTS, " + input +
+         "->current)" +
+         (last > 0 ? " * (m->yield_stress / " + c_number(last) + ")" : std::string());
+}
+
 std::string physics_code(const FamilyModel& model, const PhysicsFamily& force, bool settable) {
   const FamilyPhysics& physics = force.physics();
   const PhysicsReference& r = physics.reference;
@@ -220,30 +231,24 @@ std::string physics_code(const FamilyModel& model, const PhysicsFamily& force, b
     values += (values.empty() ? "" : ", ") + c_number(parameter.value);
   }
   std::string code =
-      (settable ? "#include <string.h>\n\n" : "") + std::string("#include \"physics_family.h\"\n") +
-      c_table("kNumbers", physics.numbers) + c_table("kDeviation", physics.deviation) + "\n" +
+      "#include \"physics_family.h\"\n" + c_table("kNumbers", physics.numbers) +
+      c_table("kDeviation", physics.deviation) + "\n" +
       filled(kMemberNumbers, {{"fields", CText::own(fields)}, {"values", CText::own(values)}});
   if (settable)
     code += filled(kNumbersBehind, {{"size", CText::own(std::to_string(model.state_size()))}});
 
-  const double last = model.member().yield.stresses.back();
-  const std::string curve =
-      "yield_stress_at(kYieldCurrents, kYieldStresses, FAMILY_YIELD_POINTS, to->current)";
   const std::string reference = c_number(r.piston_area) + ", " + c_number(r.gap_area) + ", " +
                                 c_number(r.gap) + ", " + c_number(r.pole_length) + ", " +
                                 c_number(r.viscosity) + ", " + c_number(r.yield_stress) + ", " +
                                 c_number(r.current) + ", " + c_number(r.force) + ", " +
                                 c_number(r.speed) + ", " + c_number(r.stroke);
   return code +
-         filled(kPhysics,
-                {{"reference", CText::own(reference)},
-                 {"stem", CText::own(stem_of(model))},
-                 {"numbers", CText::own(settable ? "family_behind(state)" : "&kFamily")},
-                 {"yield", CText::own(curve)},
-                 {"scale", CText::own(last > 0 ? " * (m->yield_stress / " + c_number(last) + ")"
-                                               : std::string())},
-                 {"force", CText::own(c_number(r.force))},
-                 {"offset", CText::own(c_number(physics.deviation[3]))}});
+         filled(kPhysics, {{"reference", CText::own(reference)},
+                           {"stem", CText::own(stem_of(model))},
+                           {"numbers", CText::own(settable ? "family_behind(state)" : "&kFamily")},
+                           {"yield", CText::own(yield_of(model, "to"))},
+                           {"force", CText::own(c_number(r.force))},
+                           {"offset", CText::own(c_number(physics.deviation[3]))}});
 }
 
 std::string lag_code(const FamilyModel& model, bool settable) {
@@ -287,6 +292,19 @@ std::vector<CParameter> c_parameters(const FamilyModel& model) {
         {"lag_rate", "1/s", "of the coil: its current follows the command at this rate",
          member.lag_rate, std::min(1e-3, member.lag_rate), std::max(1e6, member.lag_rate)});
   return parameters;
+}
+
+std::string c_family_plate_flow(const FamilyModel& model) {
+  constexpr const char* kPlateFlow =
+      R"(static double family_plate_flow(const DamperInput* input, const double* state) {
+  const FamilyNumbers* m = family_behind(state);
+  const PlateGap gap = {m->pole_length, m->gap_area / m->gap, m->gap};
+  const double yield_stress = @yield@;
+  const double newtonian = plate_newtonian_pressure(&gap, m->viscosity, m->piston_area * fabs(input->velocity));
+  return plate_side(input->velocity) * m->piston_area * plate_bingham_pressure(newtonian, plate_yield_pressure(&gap, yield_stress));
+}
+)";
+  return filled(kPlateFlow, {{"yield", CText::own(yield_of(model, "input"))}});
 }
 
 CModel c_family(const FamilyModel& model, bool settable) {

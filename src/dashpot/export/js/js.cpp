@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "dashpot/damper/force_band.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
@@ -79,28 +81,61 @@ function force(state, displacement, velocity, current) {
 }
 )";
 
+/// Of a family by physics: what plate flow alone says of the same damper.
+constexpr const char* kPlateFlow = R"(
+function plate_flow(state, displacement, velocity, current) {
+  take(state, displacement, velocity, current);
+  return family_plate_flow($input, $model + model.inputs.length);
+}
+)";
+
 Value input(const char* name, const std::string& unit, double low, double high) {
   return Value::object({{"name", name}, {"unit", unit}, {"low", low}, {"high", high}});
 }
 
-/// `first`: the place of the first parameter in a state.
+/// `first`: the place of the first parameter in a state. Those of a family have the range of the
+/// dampers that it was fitted on.
 Value parameters_of(const DamperModel& model, std::size_t first) {
   Value list = Value::array();
-  const auto* law = model_as<LawModel>(model);
-  for (const CParameter& one : law ? c_parameters(*law) : std::vector<CParameter>{})
-    list.push_back(Value::object({{"name", one.name},
-                                  {"unit", one.unit},
-                                  {"meaning", one.meaning},
-                                  {"place", first + list.items().size()},
-                                  {"value", one.value},
-                                  {"lower", one.lower},
-                                  {"upper", one.upper}}));
+  const auto* family = model_as<FamilyModel>(model);
+  for (const CParameter& one : c_parameters(model)) {
+    Value parameter = Value::object({{"name", one.name},
+                                     {"unit", one.unit},
+                                     {"meaning", one.meaning},
+                                     {"place", first + list.items().size()},
+                                     {"value", one.value},
+                                     {"lower", one.lower},
+                                     {"upper", one.upper}});
+    if (family)
+      for (const Family::Range& range : family->family().domain)
+        for (const MemberField& field : member_fields())
+          if (field.field == range.field && field.name == one.name) {
+            parameter.add("low", range.min);
+            parameter.add("high", range.max);
+          }
+    list.push_back(std::move(parameter));
+  }
   return list;
+}
+
+/// The band around the force; null where there is none, or where it takes the spread of networks,
+/// which the code has not. `build_spread`: of the force of builds about its `offset`, N, as a
+/// share.
+Value interval_of(const ExportedModel& model) {
+  if (!model.interval) return {};
+  const auto* family = model_as<FamilyModel>(model.model);
+  if (model.interval->spread > 0 && (!family || family->family().force->is_ensemble())) return {};
+  Value band = to_json(*model.interval);
+  if (family) {
+    band.add("build_spread", family->family().build_spread);
+    band.add("offset", family->offset());
+  }
+  return band;
 }
 
 Value about(const ExportedModel& model, const ExportOptions& options, std::size_t state_size) {
   const Domain& d = model.domain;
-  return Value::object(
+  Value value = Value::object(
       {{"name", model.model.name()},
        {"title", title_of(model.model)},
        {"kind", name_of(model.model.kind())},
@@ -114,7 +149,13 @@ Value about(const ExportedModel& model, const ExportOptions& options, std::size_
                       input("velocity", "m/s", d.velocity_min, d.velocity_max),
                       input("current", unit_of(model.drive_unit), d.current_min, d.current_max)})},
        {"output", Value::object({{"name", "force"}, {"unit", "N"}})},
+       {"interval", interval_of(model)},
        {"parameters", parameters_of(model.model, kInputs + model.model.state_size())}});
+  if (const auto* family = model_as<FamilyModel>(model.model); family && has_settable(model.model))
+    value.add("yield_curve",
+              Value::object({{"currents", Value::array(family->member().yield.currents)},
+                             {"stresses", Value::array(family->member().yield.stresses)}}));
+  return value;
 }
 
 /// Definitions of all that js_program() names.
@@ -123,36 +164,47 @@ std::string definitions(const ExportedModel& model, const ExportOptions& options
     throw Error(model.model.name(), "cannot be JavaScript in single precision, which it has not",
                 "--precision double");
 
-  // A law's parameters stand behind its state, with a lag rate even where there is none.
+  // Parameters stand behind the state, a law's with a lag rate even where there is none.
   const auto* law = model_as<LawModel>(model.model);
-  std::size_t size = model.model.state_size();
-  if (law) size += c_parameters(*law).size() + (law->lag_rate() > 0 ? 0 : 1);
+  const auto* family = model_as<FamilyModel>(model.model);
+  const bool is_settable = has_settable(model.model);
+  std::size_t size = model.model.state_size() + c_parameters(model.model).size();
+  if (law && law->lag_rate() <= 0) ++size;
   size = std::max<std::size_t>(1, size);
 
   // The C code of write_c_source, of which damper_model is the last input and then the state.
-  const CProgram program = parse_c(
-      "#define DAMPER_STATE_SIZE " + std::to_string(size) + "\n#define DAMPER_SAMPLE_TIME " +
-      c_number(export_sample_time(model, options)) + "\n" + std::string(c_text("damper_api.h")) +
-      "\ntypedef damper_input DamperInput;\n" +
-      with_texts(c_model(model.model, law != nullptr).code) + std::string(c_text("damper_api.c")));
-  const JsCode code = js_code(program, kCalled, program.size_of_struct("damper_model") + kInputs);
+  const bool has_flow = family && is_settable;
+  const CProgram program =
+      parse_c("#define DAMPER_STATE_SIZE " + std::to_string(size) +
+              "\n#define DAMPER_SAMPLE_TIME " + c_number(export_sample_time(model, options)) +
+              "\n" + std::string(c_text("damper_api.h")) + "\ntypedef damper_input DamperInput;\n" +
+              with_texts(c_model(model.model, is_settable).code +
+                         (has_flow ? c_family_plate_flow(*family) : "")) +
+              std::string(c_text("damper_api.c")));
+  std::vector<std::string_view> called(kCalled.begin(), kCalled.end());
+  if (has_flow) called.push_back("family_plate_flow");
+  const JsCode code = js_code(program, called, program.size_of_struct("damper_model") + kInputs);
 
   return "const model = " + js_value(about(model, options, size)).text() + ";\n" + code.text +
          "const $model = " + std::to_string(code.room) + ", $input = $model + model.state_size;\n" +
-         std::string(kInterface);
+         std::string(kInterface) + (has_flow ? kPlateFlow : "");
 }
 
-constexpr const char* kNames = "{model, create, reset, step, advance, force}";
+std::string names_of(const DamperModel& model) {
+  return std::string("{model, create, reset, step, advance, force") +
+         (model_as<FamilyModel>(model) && has_settable(model) ? ", plate_flow}" : "}");
+}
 
 }  // namespace
 
 JsText js_program(const ExportedModel& model, const ExportOptions& options) {
-  return JsText::own("(() => {\n" + definitions(model, options) + "return " + kNames + ";\n})()");
+  return JsText::own("(() => {\n" + definitions(model, options) + "return " +
+                     names_of(model.model) + ";\n})()");
 }
 
 std::vector<ExportedFile> write_js(const ExportedModel& model, const ExportOptions& options) {
-  return {{export_name(model, options) + ".mjs",
-           std::string(kUse) + definitions(model, options) + "\nexport " + kNames + ";\n"}};
+  return {{export_name(model, options) + ".mjs", std::string(kUse) + definitions(model, options) +
+                                                     "\nexport " + names_of(model.model) + ";\n"}};
 }
 
 }  // namespace dashpot

@@ -26,7 +26,8 @@ function motion_sliders({inputs: [displacement, velocity, current]}) {
 
 // From nothing to twice the value, within the bounds of the parameter. One that is 0 reaches as far as the greatest of its
 // unit, or as the motion.
-function parameter_sliders({inputs: [displacement, velocity], parameters}) {
+function parameter_sliders({kind, inputs: [displacement, velocity], parameters}) {
+  if (kind === "family") return parameters.map(member_slider);
   const greatest = {m: half_stroke(displacement), "m/s": velocity.high};
   for (const {unit, value} of parameters) if (value !== 0) greatest[unit] = Math.max(greatest[unit] ?? 0, Math.abs(value));
   return parameters.map(({name, unit, meaning, value, lower, upper}) => {
@@ -34,6 +35,13 @@ function parameter_sliders({inputs: [displacement, velocity], parameters}) {
     return {key: name, label: name, unit: unit === "1" ? "" : unit, meaning, scale: 1, value,
       low: Math.max(value - reach, lower ?? -Infinity), high: Math.min(value + reach, upper ?? Infinity)};
   });
+}
+
+// A number of a family's damper reaches over its bounds, half as far again as the dampers of the fit.
+function member_slider({name, unit, meaning, value, lower, upper}) {
+  const [scale, shown] = {m: [1e3, "mm"], "m^2": [1e6, "mm²"], Pa: [1e-3, "kPa"], "Pa*s": [1e3, "mPa·s"], 1: [1, ""]}[unit] ?? [1, unit];
+  const is_log = unit === "1/s";
+  return {key: name, label: name.replaceAll("_", " "), unit: shown, meaning, scale, value, is_log, low: is_log ? value / 10 : lower, high: is_log ? 10 * value : upper};
 }
 
 function half_stroke({low, high}) {
@@ -49,9 +57,11 @@ function value_at({low, high, is_log}, place) {
 }
 
 // Where a motion leaves the data of the model, in words, one for each way.
-function beyond({inputs: [displacement, velocity, current]}, setting) {
-  const outside = (least, most, {low, high}) => least < low - 1e-9 * Math.abs(low) || most > high + 1e-9 * Math.abs(high);
-  const middle = (displacement.low + displacement.high) / 2, speed = 2 * Math.PI * setting.frequency * setting.amplitude;
+function beyond(model, setting, parameters = {}) {
+  const {inputs: [displacement, velocity, current]} = model;
+  const room = 0.01;  // of the range: a record's motion is set to two digits
+  const outside = (least, most, {low, high}) => least < low - room * (high - low) || most > high + room * (high - low);
+  const middle = middle_of(model, setting), speed = 2 * Math.PI * setting.frequency * setting.amplitude;
   const words = [];
   if (outside(setting.current, setting.current, current))
     words.push(`${current.unit === "V" ? "voltage" : "current"} ${three_digits(setting.current)} ${current.unit}, recorded ${three_digits(current.low)} to ${three_digits(current.high)}`);
@@ -59,7 +69,55 @@ function beyond({inputs: [displacement, velocity, current]}, setting) {
     words.push(`amplitude ${three_digits(1e3 * setting.amplitude)} mm, recorded to ${three_digits(500 * (displacement.high - displacement.low))}`);
   if (outside(-speed, speed, velocity))
     words.push(`speed to ${three_digits(1e3 * speed)} mm/s, recorded ${three_digits(1e3 * velocity.low)} to ${three_digits(1e3 * velocity.high)}`);
+  for (const parameter of model.parameters) {
+    const {name, low, high} = parameter, value = parameters[name] ?? parameter.value;
+    if (low === undefined || !outside(value, value, parameter)) continue;
+    const {label, scale, unit} = member_slider(parameter);
+    words.push(`${label} ${three_digits(scale * value)} ${unit}, dampers of the fit ${three_digits(scale * low)} to ${three_digits(scale * high)}`);
+  }
   return words;
+}
+
+// Where a motion has its middle: where the record that it follows has it, or the data as a whole.
+function middle_of({inputs: [{low, high}]}, {middle}) {
+  return middle ?? (low + high) / 2;
+}
+
+// A record: {current, conditions, velocity: {x, y}, displacement: {x, y}}, with y the force N over mm/s and mm. The sine that
+// is nearest to its motion, to two digits; the middle is exact.
+function motion_of({current, velocity, displacement}) {
+  const [low, high] = ends_of(displacement.x), [least, most] = ends_of(velocity.x), two_digits = (value) => Number(value.toPrecision(2));
+  const amplitude = (high - low) / 2;
+  return {current, middle: (low + high) / 2e3, amplitude: two_digits(amplitude / 1e3), frequency: two_digits((most - least) / 2 / (2 * Math.PI * amplitude))};
+}
+function ends_of(values) {
+  return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
+}
+
+// The record's damper as numbers of a family's: what its conditions state. Their yield stress is that at the record's current,
+// the model's that at the end of its curve.
+function member_of({current, conditions = {}}, {kind, parameters, yield_curve}) {
+  const found = {};
+  if (kind === "family") for (const {name} of parameters) if (conditions[name] !== undefined) found[name] = conditions[name];
+  if (found.yield_stress !== undefined) {
+    const {currents, stresses} = yield_curve, here = between_knots(currents, stresses, Math.abs(current));
+    if (here > 0) found.yield_stress *= stresses.at(-1) / here;
+    else delete found.yield_stress;
+  }
+  return found;
+}
+
+// Straight between the knots, held beyond them.
+function between_knots(knots, values, at) {
+  const next = knots.filter((knot) => knot <= at).length;
+  if (next === 0 || next === knots.length) return values[Math.max(0, next - 1)];
+  return values[next - 1] + (at - knots[next - 1]) / (knots[next] - knots[next - 1]) * (values[next] - values[next - 1]);
+}
+
+// Half of the band around a force, N; `builds`: the spread of the force among builds there, N.
+function half_width_of({speeds, drives, half_width_N, spread = 0}, velocity, current, builds) {
+  const row = drives.length * speeds.filter((edge) => edge <= Math.abs(velocity)).length;
+  return Math.hypot(between_knots(drives, half_width_N.slice(row, row + drives.length), current), spread * builds);
 }
 
 // The old range of an axis where the new one lies within it and fills half of it or more, so that axes stand still.
@@ -68,9 +126,10 @@ function kept_range(old, [least, most]) {
 }
 
 // One cycle after as many as it takes to close, or as there is time for: displacement mm, velocity mm/s and force N along it, the energy that it
-// takes out, J, and whether it closes. Begins at rest at the lower end.
-function loop_of({model, create, reset, advance}, {current, amplitude, frequency}, parameters) {
-  const [{low, high}] = model.inputs, middle = (low + high) / 2, rate = 2 * Math.PI * frequency, begin = performance.now();
+// takes out, J, and whether it closes; where there are such, half of the band around the force, and what plate flow alone would give, N. Begins at rest at the
+// lower end.
+function loop_of({model, create, reset, advance, plate_flow}, setting, parameters) {
+  const {current, amplitude, frequency} = setting, middle = middle_of(model, setting), rate = 2 * Math.PI * frequency, begin = performance.now();
   const motion = Array.from({length: kPerCycle + 1}, (_, k) => {
     const phase = 2 * Math.PI * k / kPerCycle;
     return [middle - amplitude * Math.cos(phase), amplitude * rate * Math.sin(phase)];
@@ -93,7 +152,26 @@ function loop_of({model, create, reset, advance}, {current, amplitude, frequency
 
   let energy = 0;
   for (let k = 1; k <= kPerCycle; k++) energy += (force[k] + force[k - 1]) / 2 * (motion[k][0] - motion[k - 1][0]);
-  return {displacement: motion.map(([x]) => 1e3 * x), velocity: motion.map(([, v]) => 1e3 * v), force, energy, least, greatest, closes};
+
+  // Builds differ by a share of the force, which `build` has moved already.
+  const {interval} = model, {build_spread = 0, offset = 0} = interval ?? {}, build = parameters.build ?? model.parameters.find(({name}) => name === "build")?.value ?? 0;
+  const builds = (newton) => Math.abs((newton - offset) / (1 + build_spread * build) * build_spread);
+  return {displacement: motion.map(([x]) => 1e3 * x), velocity: motion.map(([, v]) => 1e3 * v), force, energy, least, greatest, closes,
+    half_width: interval ? motion.map(([, v], k) => half_width_of(interval, v, current, builds(force[k]))) : undefined,
+    plate: plate_flow ? motion.map(([x, v]) => plate_flow(state, x, v, current)) : undefined};
+}
+
+// What is drawn over `key`, "velocity" or "displacement", the one below first: {role, label, x, y}. `before`: the loop as
+// identified, `record`: a measured one, either may be missing.
+function loop_curves(key, loop, before, record, level) {
+  const {[key]: x, force, half_width, plate} = loop, curves = [];
+  if (record) curves.push({role: "measured", label: "measured", ...record[key]});
+  if (plate) curves.push({role: "physics", label: "plate flow alone", x, y: plate});
+  if (before) curves.push({role: "before", label: "as identified", x: before[key], y: before.force});
+  if (half_width) curves.push({role: "band", label: `${Math.round(100 * level)} % band`, x: [...x, NaN, ...x],
+    y: [...half_width.map((half, k) => force[k] + half), NaN, ...half_width.map((half, k) => force[k] - half)]});
+  curves.push({role: "set", label: "as set", x, y: force});
+  return curves;
 }
 
 // What is seen of a loop, in words.
