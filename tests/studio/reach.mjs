@@ -11,6 +11,15 @@ async function names(devtools, where) {
   return shown.length;
 }
 
+// What a view asks the server for comes a little later.
+async function settled(page) {
+  const size = () => page.evaluate(() => document.querySelectorAll("main *").length);
+  for (let before = -1, now = await size(); now !== before; now = await size()) {
+    before = now;
+    await new Promise((done) => setTimeout(done, 300));
+  }
+}
+
 // What the Tab key may come to: of a group of radio buttons one, of a list of tabs the chosen one.
 async function tab_order(page, where) {
   const wanted = await page.evaluate(() => {
@@ -20,14 +29,15 @@ async function tab_order(page, where) {
     document.activeElement?.blur();
     return can.length;
   });
-  const reached = new Set(), unseen = [];
-  for (let k = 0; k < wanted + 40 && reached.size < wanted; ++k) {
+  const reached = new Set(), unseen = [], kMost = 1000;
+  for (let k = 0; k < kMost && reached.size < wanted; ++k) {
     await page.keyboard.press("Tab");
     const at = await page.evaluate(() => {
       const e = document.activeElement, style = getComputedStyle(e);
       return {reach: e.dataset?.reach, what: `${e.tagName} ${e.getAttribute("aria-label") ?? e.textContent.slice(0, 30)}`, is_seen: style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0};
     });
     if (at.reach === undefined) continue;
+    if (reached.has(at.reach)) break;  // once round
     reached.add(at.reach);
     if (!at.is_seen) unseen.push(at.what);
   }
@@ -71,6 +81,7 @@ async function contrast(page, where) {
 }
 
 export async function check_reach(page, where) {
+  await settled(page);
   const devtools = await page.context().newCDPSession(page);
   const named = await names(devtools, where), reached = await tab_order(page, where);
   await contrast(page, where);
