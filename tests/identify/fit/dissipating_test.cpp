@@ -28,6 +28,7 @@ const std::vector<Record>& records_of_a_bench() {
 FitReport brief_fit(const std::string& model, bool allow_active) {
   IdentifyOptions options{.allow_active = allow_active};
   options.network = {.hidden = {4}, .epochs = 30, .l2 = 1e-4, .members = 2};
+  if (model == "hysteresis_network") options.network.hidden = {10};
   FitReport fit = identify(model, records_of_a_bench(), DriveUnit::Ampere, options);
   REQUIRE(fit.model);
   return fit;
