@@ -21,7 +21,8 @@ namespace dashpot {
 // that feeds energy into these shakes a car that stands.
 
 /// The outcome of moving a model by sines at constant drive, from 1 to 200 Hz and from 0.1 um
-/// to the strokes and speeds of its data, each until its cycles repeat themselves.
+/// to the strokes and speeds of its data, and to 20 times these where nothing but data has formed
+/// it, each until its cycles repeat themselves.
 struct Dissipation {
   bool is_tested = false;
 
@@ -41,8 +42,8 @@ struct Dissipation {
   bool dissipates() const;  ///< not tested, or no cycle feeds in more than 0.1 %
 };
 
-/// Runs the model within the strokes, speeds and drives of the domain; without speeds, within those
-/// of usual_domain().
+/// Runs the model with the strokes, speeds and drives of the domain; without speeds, with those of
+/// usual_domain().
 Dissipation dissipation(const DamperModel& model, const Domain& domain, int threads = 0);
 
 /// What is wrong, in words that follow the model's name and a colon; empty where it dissipates.

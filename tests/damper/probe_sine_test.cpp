@@ -1,5 +1,8 @@
 #include "dashpot/damper/probe_sine.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include "support.h"
 
 using namespace dashpot;
@@ -48,11 +51,23 @@ TEST_CASE("the slopes of a share are its derivatives by each force") {
 
 TEST_CASE("sines stay within the strokes and speeds of a domain") {
   const Domain domain{-0.01, 0.03, -0.2, 0.5, 0, 2};
-  for (const ProbeSine& sine : probe_sines(domain, true)) {
+  for (const ProbeSine& sine : probe_sines(domain, true, false)) {
     CHECK(sine.amplitude * 2 * 3.14159 * sine.frequency <= 0.5);
     CHECK(std::abs(sine.position - 0.01) + sine.amplitude <= 0.02 + 1e-12);
     CHECK(sine.drive >= 0);
     CHECK(sine.drive <= 2);
   }
-  CHECK(probe_sines(domain, true).size() > probe_sines(domain, false).size());
+  CHECK(probe_sines(domain, true, false).size() > probe_sines(domain, false, false).size());
+}
+
+TEST_CASE("sines beyond a domain are up to 20 times as far and as quick, the others as they were") {
+  const Domain domain{-0.01, 0.03, -0.2, 0.5, 0, 2};
+  double furthest = 0, quickest = 0;
+  for (const ProbeSine& sine : probe_sines(domain, false, true)) {
+    furthest = std::max(furthest, sine.amplitude);
+    quickest = std::max(quickest, sine.amplitude * 2 * std::numbers::pi * sine.frequency);
+  }
+  CHECK_CLOSE(furthest, 20 * 0.02, 1e-12, 0);
+  CHECK_CLOSE(quickest, 20 * 0.5, 1e-12, 0);
+  CHECK(probe_sines(domain, false, true).size() > probe_sines(domain, false, false).size());
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -62,6 +63,27 @@ inline dashpot::FuzzyModel example_fuzzy() {
           sugeno};
 }
 
+/// The same network with narrow ranges, so that motions go beyond them, and this gain of the
+/// velocity in place of its own.
+inline dashpot::GatedNetwork narrowed(dashpot::GatedNetwork network, double gain) {
+  for (std::size_t k = 0; k < network.motions(); ++k) {
+    network.signals[k].low = -0.4;
+    network.signals[k].high = 0.5;
+  }
+  double* const row = &network.gates[network.gate_count()];
+  std::fill_n(row, network.gate_count(), 0.0);
+  *row = gain;
+  return network;
+}
+
+/// Two members of a kind, one whose velocity goes on beyond its range and one whose does not.
+template <class Member>
+std::vector<Member> beyond_their_ranges(std::vector<Member> two) {
+  two[0].network = narrowed(two[0].network, 0.6);
+  two[1].network = narrowed(two[1].network, -0.6);
+  return two;
+}
+
 /// Every law, laws from files, and every other kind of model.
 inline std::vector<ExampleModel> example_models() {
   using namespace dashpot;
@@ -87,6 +109,13 @@ inline std::vector<ExampleModel> example_models() {
                              {example_hysteresis_network(1), example_hysteresis_network(2)}, 2));
   add("state_space",
       StateSpaceModel("neural_state_space", {example_state_space(1), example_state_space(2)}, 2));
+  add("hysteresis_network_beyond",
+      HysteresisNetworkModel("hysteresis_network",
+                             beyond_their_ranges(std::vector{example_hysteresis_network(1),
+                                                             example_hysteresis_network(2)})));
+  add("state_space_beyond",
+      StateSpaceModel("neural_state_space", beyond_their_ranges(std::vector{
+                                                example_state_space(1), example_state_space(2)})));
   add("passive_network",
       PassiveNetworkModel("passive_network",
                           {example_passive_network(1), example_passive_network(2)}, 2));

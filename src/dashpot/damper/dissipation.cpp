@@ -2,58 +2,24 @@
 #include <cmath>
 #include <vector>
 
-#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/probe_sine.h"
 #include "dashpot/model_file.h"
 
 namespace dashpot {
-namespace {
 
-constexpr double kTolerance = 1e-3;  // of the energy that passes through
-constexpr int kMostCycles = 12;      // until two are alike
-
-/// A motion once it repeats itself: a cycle that is like the one before, else the mean of many, as
-/// of a model whose own steps beat with the motion.
-ProbedCycle settled(const DamperModel& model, const ProbeSine& sine) {
-  constexpr double kAlike = 1e-3;  // of what passes through
-  const std::vector<DamperInput> inputs = cycle_of(sine);
-  const double step = step_of(sine);
-  std::vector<double> state(model.state_size()), force(inputs.size());
-  model.rest(inputs.front(), state);
-
-  ProbedCycle sum, before;
-  for (int n = 0; n < kMostCycles; ++n) {
-    const std::size_t usable = model.run(inputs, {.step = step}, state, {force.data()});
-    if (usable < inputs.size() || !std::isfinite(force.back())) return {.diverged = true};
-    const ProbedCycle cycle = measured(inputs, force, step);
-    const bool is_alike = n > 1 && std::abs(cycle.work - before.work) <= kAlike * cycle.passed;
-    if (state.empty() || is_alike) return cycle;
-    before = cycle;
-    if (n < kMostCycles / 2) continue;
-    sum.work += cycle.work;
-    sum.passed += cycle.passed;
-    sum.squares += cycle.squares;
-  }
-  return sum;
-}
-
-}  // namespace
-
-bool Dissipation::dissipates() const { return !is_tested || share >= -kTolerance; }
+bool Dissipation::dissipates() const { return !is_tested || share >= -ProbedCycle::kTolerance; }
 
 Dissipation dissipation(const DamperModel& model, const Domain& domain, int threads) {
-  const std::vector<ProbeSine> motions = probe_sines(domain, model.needs_displacement());
-  std::vector<ProbedCycle> cycles(motions.size());
-  parallel_for(motions.size(), threads,
-               [&](std::size_t k) { cycles[k] = settled(model, motions[k]); });
+  const std::vector<ProbeSine> motions = probe_sines(model, domain);
+  const std::vector<ProbedCycle> cycles = settled_cycles(model, motions, threads);
 
   // The worst of them, and the band in which any is active.
   Dissipation result{.is_tested = true, .share = INFINITY};
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const ProbeSine& motion = motions[k];
     const double share = cycles[k].share();
-    if (share < -kTolerance) {
+    if (cycles[k].is_active()) {
       if (result.active_to == 0) result.active_from = motion.frequency;
       result.active_from = std::min(result.active_from, motion.frequency);
       result.active_to = std::max(result.active_to, motion.frequency);

@@ -18,8 +18,16 @@ constexpr std::size_t kProbeSamples = 100;  // of a cycle
 
 /// The sines of 1 to 200 Hz and of 0.1 um to the strokes and speeds of a domain, at five drives; of
 /// usual_domain() where it has no speeds. With `about_positions` small ones are made about three
-/// positions, as matters to models that read the displacement.
-std::vector<ProbeSine> probe_sines(Domain domain, bool about_positions);
+/// positions, as matters to models that read the displacement. With `unproven`, for models that
+/// nothing but data has formed, they stand closer and some go to 3 and 20 times the strokes and
+/// speeds of the domain: a wheel behind a kerb of 3 cm is that much quicker than a bench.
+std::vector<ProbeSine> probe_sines(Domain domain, bool about_positions, bool unproven);
+
+/// Those by which a model is judged. Laws have their sets, passive networks their proof.
+inline std::vector<ProbeSine> probe_sines(const DamperModel& model, const Domain& domain) {
+  const bool unproven = model.kind() != ModelKind::Law && model.kind() != ModelKind::PassiveNetwork;
+  return probe_sines(domain, model.needs_displacement(), unproven);
+}
 
 /// One cycle, its first sample again at its end; none falls on the middle of the stroke, where a
 /// law may leap.
@@ -32,6 +40,8 @@ inline double step_of(const ProbeSine& sine) {
 
 /// What a cycle did.
 struct ProbedCycle {
+  static constexpr double kTolerance = 1e-3;  ///< of what passes through: less is no activity
+
   double work = 0, passed = 0;  ///< J; out, and through in both directions
   double squares = 0;           ///< m^2/s: of the velocity, over time
   bool diverged = false;
@@ -41,6 +51,7 @@ struct ProbedCycle {
     return passed > 0 ? work / passed : 0;
   }
   double damping() const { return work / squares; }
+  bool is_active() const { return share() < -kTolerance; }
 };
 
 /// Of the inputs of one cycle, the forces at them and the step between them. The work by the
@@ -48,6 +59,11 @@ struct ProbedCycle {
 /// mean, so that a preload is no energy.
 ProbedCycle measured(std::span<const DamperInput> inputs, std::span<const double> force,
                      double step);
+
+/// What a model does under each of the sines once it repeats itself: a cycle that is like the one
+/// before, else the mean of many, as of a model whose own steps beat with the motion.
+std::vector<ProbedCycle> settled_cycles(const DamperModel& model, std::span<const ProbeSine> sines,
+                                        int threads);
 
 /// The derivatives of the share of a cycle so measured by the forces, one per sample.
 std::vector<double> share_slopes(std::span<const DamperInput> inputs, std::span<const double> force,

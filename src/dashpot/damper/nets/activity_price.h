@@ -9,14 +9,13 @@
 
 namespace dashpot {
 
-/// What a training pays for energy that its model feeds into motions: for each of the sines by
-/// which dissipation() judges a model, (weight (margin - share))^2 where the share of energy that a
-/// cycle takes out is below a small margin, else nothing. For models that do not read the
-/// displacement.
+/// What a training pays for energy that its model feeds into motions: for each of some sines,
+/// (weight (margin - share))^2 where the share of energy that a cycle takes out is below a small
+/// margin, else nothing. For models that do not read the displacement.
 class ActivityPrice {
  public:
-  ActivityPrice(const Domain& domain, double weight) : weight_(weight) {
-    for (const ProbeSine& sine : probe_sines(domain, false)) probes_.emplace_back(sine);
+  ActivityPrice(std::span<const ProbeSine> sines, double weight) : weight_(weight) {
+    for (const ProbeSine& sine : sines) probes_.emplace_back(sine);
   }
 
   /// Adds the prices of a model with so many unknowns. run(record, use) runs it through a record

@@ -62,7 +62,12 @@ double GatedNetwork::evaluate_held(const double* raw) const noexcept {
   return output_scale * sum(held.data(), held.data());
 }
 
-/// linear: the motions as they stand among the terms; held: what gates and neurons see.
+/// The velocity among the terms: beyond its range it goes on where that takes energy out.
+double GatedNetwork::continued(double linear, double held, double gain) noexcept {
+  return gain > 0 ? linear : held;
+}
+
+/// held: what gates, neurons and the terms see; linear: where the velocity goes on to.
 double GatedNetwork::sum(const double* linear, const double* held) const noexcept {
   std::array<double, kMaxGates> c;
   fill_gates(&held[motions()], c.data());
@@ -71,14 +76,18 @@ double GatedNetwork::sum(const double* linear, const double* held) const noexcep
   double sum = 0;
 
   // Each term of t is gated: multiplied by its own polynomial of the currents.
-  const auto add = [&](double term) {
-    sum += term * std::inner_product(gate, gate + count, c.begin(), 0.0);
+  const auto next_gain = [&] {
+    const double gain = std::inner_product(gate, gate + count, c.begin(), 0.0);
     gate += count;
+    return gain;
   };
+  const auto add = [&](double term) { sum += term * next_gain(); };
 
   // The constant, the motions, then the neurons, in the order of the rows of G.
   add(1);
-  for (std::size_t k = 0; k < motions(); ++k) add(linear[k]);
+  const double of_velocity = next_gain();
+  sum += continued(linear[0], held[0], of_velocity) * of_velocity;
+  for (std::size_t k = 1; k < motions(); ++k) add(held[k]);
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
     add(branchless_tanh(std::inner_product(w, w + signals.size(), held, w[signals.size()])));
   return sum;
@@ -98,8 +107,9 @@ double GatedNetwork::differentiate(const double* linear, const double* held, dou
   const double* gate = gates.data();
   double* by_gate = by_parameters + neurons.size();
   double sum = 0;
-  const auto add = [&](double term) {  // returns the derivative of the output by the term
-    const double gain = std::inner_product(gate, gate + width, c.begin(), 0.0);
+  const auto gain_of_next = [&] { return std::inner_product(gate, gate + width, c.begin(), 0.0); };
+  const auto add = [&](double term) {
+    const double gain = gain_of_next();
     for (std::size_t k = 0; k < width; ++k) {
       by_c[k] += term * *gate++;
       *by_gate++ = term * c[k];
@@ -108,8 +118,15 @@ double GatedNetwork::differentiate(const double* linear, const double* held, dou
     return gain;
   };
 
+  // The constant, the velocity, which may go on beyond its range, and the other motions.
   add(1);
-  for (std::size_t k = 0; k < first_current; ++k) by_signals[k] += add(linear[k]);
+  const double of_velocity = gain_of_next();
+  add(continued(linear[0], held[0], of_velocity));
+  if (held[0] == linear[0] || of_velocity > 0) by_signals[0] += of_velocity;
+  for (std::size_t k = 1; k < first_current; ++k) {
+    const double gain = add(held[k]);
+    if (held[k] == linear[k]) by_signals[k] += gain;
+  }
 
   // Neurons: on through tanh to their weights and to the signals, but for those at the end of their
   // range.

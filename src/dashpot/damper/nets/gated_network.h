@@ -20,9 +20,11 @@ namespace dashpot {
 /// first. Odd in the motions but for b, the current's part of W and the first row of G. Plain data:
 /// at most kMaxSignals signals, kMaxCurrents of them currents.
 struct GatedNetwork {
-  /// standardised = (raw - mean) / scale, held within low ... high: beyond the data, current and
-  /// neurons stay as at their edge. The motions themselves, among t, are not held: they go on along
-  /// straight lines.
+  /// standardised = (raw - mean) / scale, held within low ... high, so that beyond the data the
+  /// force stays within a bound. To it the velocity, the first of the motions, adds a straight line
+  /// where that takes energy out: c (v - held v), with c = its gain at the held currents, none
+  /// below 0. So whatever the weights, a network beyond its data is a bounded force beside a
+  /// dashpot, and no plant that is stable without it can grow without end.
   struct Signal {
     double mean = 0, scale = 1;
     double low = -1, high = 1;  ///< standardised
@@ -61,13 +63,13 @@ struct GatedNetwork {
 
   /// Output at raw signals, in raw units. Allocates nothing.
   double evaluate(const double* raw) const noexcept;
-  /// The same with the motions among t held, too.
+  /// The same without the line of the velocity.
   double evaluate_held(const double* raw) const noexcept;
   /// Standardised output at standardised signals, none held.
   double output(const double* standardised) const noexcept {
     return sum(standardised, standardised);
   }
-  /// The same as evaluate() has it, where neurons and gates see signals that are held.
+  /// The same as evaluate() has it, with all held but the velocity where it goes on.
   double output(const double* linear, const double* held) const noexcept {
     return sum(linear, held);
   }
@@ -84,6 +86,7 @@ struct GatedNetwork {
   void initialise(std::size_t hidden, std::uint64_t seed);
 
  private:
+  static double continued(double linear, double held, double gain) noexcept;
   double sum(const double* linear, const double* held) const noexcept;
   void fill_gates(const double* currents, double* c) const noexcept;
 };

@@ -15,14 +15,13 @@ HysteresisNetworkModel example() {
 }
 
 double bound_of(const GatedNetwork& network, double fastest) {
-  // Standardised motions: velocity and v - y within the fastest, Dahl states and neurons within 1;
-  // |u| <= 1.
+  // Standardised motions: the velocity within the fastest, v - y held within 3, Dahl states and
+  // neurons within 1; |u| <= 1.
   double sum = 0;
   for (std::size_t term = 0; term < network.term_count(); ++term) {
-    const bool is_velocity = term == 1 || term == 4;
+    const double most = term == 1 ? fastest / network.signals[0].scale : term == 4 ? 3 : 1;
     for (std::size_t k = 0; k < network.gate_count(); ++k)
-      sum += std::abs(network.gates[term * network.gate_count() + k]) *
-             (is_velocity ? 2 * fastest / network.signals[term - 1].scale : 1);
+      sum += std::abs(network.gates[term * network.gate_count() + k]) * most;
   }
   return network.output_scale * sum;
 }

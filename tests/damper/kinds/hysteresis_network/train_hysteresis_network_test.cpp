@@ -58,7 +58,10 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
 }
 
 TEST_CASE("the gradient is that of the cost with the price of energy that is fed in") {
-  const ActivityPrice price({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, 0.5);
+  std::vector<ProbeSine> sines;  // every 13th of a verdict's, quick and slow, small and beyond
+  const auto all = probe_sines({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, false, true);
+  for (std::size_t k = 0; k < all.size(); k += 13) sines.push_back(all[k]);
+  const ActivityPrice price(sines, 0.5);
   const HysteresisNetworkTrainOptions free{.weight_decay = 0.01},
       paid{.weight_decay = 0.01, .price = &price};
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);

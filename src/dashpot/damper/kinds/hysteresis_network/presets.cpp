@@ -14,7 +14,9 @@ constexpr std::array<HysteresisNetworkPreset, 1> kPresets{{
      .source = "Dashpot's own; the states are a bank of Dahl's, AIAA J. 14 (1976) 1675",
      .remarks =
          "Velocity and current only. Nothing feeds back to the states, so the force is bounded "
-         "for bounded inputs. Weights and logarithms of rates are trained together in free run "
+         "for bounded inputs. Beyond the data all signals stay as at their edge, but for the "
+         "velocity v of z where its gain takes energy out: there it goes on. Weights and "
+         "logarithms of rates are trained together in free run "
          "over whole records, by Levenberg-Marquardt with exact derivatives; the weight decay is "
          "the one with which trials predict held-back data best: conditions, inner levels of the "
          "current, or the ends of the training records. The four members differ in their random "

@@ -109,6 +109,8 @@ void find_ranges(HysteresisNetwork& found, const std::vector<const FreeRunRecord
     s.low = kInfinity;
     s.high = -kInfinity;
   }
+  // Rest belongs to the range of the velocity, so that what goes on beyond it resists the motion.
+  found.network.signals.front().low = found.network.signals.front().high = 0;
 
   // Take in every sample of every record, in free run.
   for (const FreeRunRecord* record : records)

@@ -234,6 +234,8 @@ void find_ranges(StateSpaceNetwork& model, const Records& records) {
     s.low = kInfinity;
     s.high = -kInfinity;
   }
+  // Rest belongs to the range of the velocity, so that what goes on beyond it resists the motion.
+  ranges.front().low = ranges.front().high = 0;
 
   // Take in every sample of every record, in free run.
   for (const FreeRunRecord* record : records)

@@ -39,24 +39,26 @@ static inline double gated_sum(const double* weights, const double* values, int 
   return sum;
 }
 
-/* Output at raw signals; `hold`: the motions among the terms are held within their ranges, too. */
+/* Output at raw signals, held within what was seen in training. Unless `hold`, the velocity (the
+ * first of the motions) goes on along its straight line where that takes energy out. */
 static inline double gated_evaluate(const GatedNetwork* n, const double* raw, int hold) {
   const int motions = n->signals - n->currents;
-  double linear[GATED_MOST_SIGNALS], inside[GATED_MOST_SIGNALS], c[GATED_MOST_GATES], sum;
+  double inside[GATED_MOST_SIGNALS], c[GATED_MOST_GATES], velocity, gain, sum;
   int k, gates, row = 1;
 
   /* Standardise, and hold within what was seen in training. */
   for (k = 0; k < n->signals; ++k) {
-    linear[k] = (raw[k] - n->mean[k]) / n->scale[k];
-    inside[k] = held(linear[k], n->low[k], n->high[k]);
+    inside[k] = held((raw[k] - n->mean[k]) / n->scale[k], n->low[k], n->high[k]);
   }
 
   /* The constant, the motions and the neurons, each times its gate: a polynomial of the currents.
    */
   gates = gated_fill(n, &inside[motions], c);
   sum = gated_sum(n->gates, c, gates);
+  velocity = (raw[0] - n->mean[0]) / n->scale[0];
   for (k = 0; k < motions; ++k) {
-    sum += ((hold != 0) ? inside[k] : linear[k]) * gated_sum(&n->gates[row * gates], c, gates);
+    gain = gated_sum(&n->gates[row * gates], c, gates);
+    sum += (((k == 0) && (hold == 0) && (gain > 0)) ? velocity : inside[k]) * gain;
     ++row;
   }
   for (k = 0; k < n->hidden; ++k) {
