@@ -117,23 +117,27 @@ Command identify_command() {
       .options = ranking_options(settings->ranking),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};
+
+  // The effort, what a fit starts from, and what judges it beside the records left out.
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
-                           fresh_option(settings->ranking)});
-  append(command.options,
-         {{.names = "--from",
-           .target = &settings->ranking.fit.from,
-           .help = "model files of laws whose numbers are the first start of these laws' fits, as "
-                   "of a damper of the same series; with --starts 1 the only one",
-           .value = "MODEL",
-           .takes = Takes::File,
-           .default_text = "the size of the data alone"},
-          {.names = "--validate",
-           .target = &settings->validate,
-           .help = "further recordings that no fit sees: the final models are judged on them "
-                   "beside the records left out",
-           .value = "FOLDER",
-           .takes = Takes::File}});
+                           fresh_option(settings->ranking),
+                           {.names = "--from",
+                            .target = &settings->ranking.fit.from,
+                            .help = "model files of laws whose numbers are the first start of "
+                                    "these laws' fits, as of a damper of the same series; with "
+                                    "--starts 1 the only one",
+                            .value = "MODEL",
+                            .takes = Takes::File,
+                            .default_text = "the size of the data alone"},
+                           {.names = "--validate",
+                            .target = &settings->validate,
+                            .help = "further recordings that no fit sees: the final models are "
+                                    "judged on them beside the records left out",
+                            .value = "FOLDER",
+                            .takes = Takes::File}});
   append(command.options, kit_options(settings->kit));
+
+  // The vehicle that the models are ridden in, or the plant that the damper was recorded in.
   append(command.options, ride_rank_options(settings->ride));
   append(command.options,
          {{.names = "--in",

@@ -8,23 +8,23 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/nets/activity_price.h"
+#include "dashpot/damper/nets/activity_penalty.h"
 #include "dashpot/identify.h"
 #include "dashpot/identify/fit/member_report.h"
 
 namespace dashpot {
 
 /// The decay of moves of rates in a training that pays: they all but stay, and with them the ranges
-/// within which the model will hold its signals, which the price must know beforehand.
+/// within which the model will hold its signals, which the penalty must know beforehand.
 constexpr double kPaidRateDecay = 1e3;
 
 /// The report on a fitted ensemble. One that feeds energy into motions is trained on from where it
-/// stands while it pays for that (ActivityPrice), at a price that rises until the measured verdict
-/// holds; a note says what that costs. Where no price is enough, or the user allows it, the
-/// ensemble stays as it fits best.
+/// stands while it pays for that (ActivityPenalty), at a penalty that rises until the measured
+/// verdict holds; a note says what that costs. Where no penalty is enough, or the user allows it,
+/// the ensemble stays as it fits best.
 ///
-/// make_model(members) gives the ensemble's model; train_on(member, price) trains one member on and
-/// renews its `report`.
+/// make_model(members) gives the ensemble's model; train_on(member, penalty) trains one member on
+/// and renews its `report`.
 template <class Member, class MakeModel, class TrainOn>
 FitReport report_of_dissipating(std::vector<Member> members, const std::vector<Record>& training,
                                 DriveUnit drive_unit, const IdentifyOptions& options,
@@ -43,11 +43,11 @@ FitReport report_of_dissipating(std::vector<Member> members, const std::vector<R
   const Dissipation before = dissipation(*active.model, domain, options.threads);
   if (before.dissipates()) return active;
 
-  // Raise the price until the verdict holds.
+  // Raise the penalty until the verdict holds.
   for (const double weight : kWeights) {
-    const ActivityPrice price(domain, weight);
+    const ActivityPenalty penalty(domain, weight);
     parallel_for(members.size(), options.threads,
-                 [&](std::size_t k) { train_on(members[k], price); });
+                 [&](std::size_t k) { train_on(members[k], penalty); });
     FitReport paying = report_of();
     if (!dissipation(*paying.model, domain, options.threads).dissipates()) continue;
     paying.warnings.push_back(
