@@ -70,6 +70,8 @@ int run_family(const BenchSettings& settings, Console& console) {
     throw UsageError("--damper", "is not benched beside a family", "leave one of them out");
   const FamilyBench made =
       bench_family(settings.family, settings.campaign, settings.folder, console.command_line());
+
+  // What was recorded, where it lies, and the command that fits a family to it.
   console.print(std::to_string(made.drawings) + " drawings, " + std::to_string(made.dampers) +
                 " dampers, " + std::to_string(made.records) + " records\n\nRecordings  " +
                 settings.folder + "/*.csv\nDrawings    " + settings.folder +

@@ -121,6 +121,8 @@ std::vector<BuiltDamper> builds_of(const std::vector<FamilyDrawing>& drawings,
   constexpr double kLeast = 0.1;  // of the strength: no build is weaker, however wide the scatter
   const double give = parse_quantity(family.give, "m", "--give");
   if (!(give > 0)) throw UsageError("--give", "is not more than 0", "as 0.3mm");
+
+  // Strength and friction scatter about the drawing; what gives is the drawing's.
   Random random(seed);
   std::vector<BuiltDamper> built;
   for (const FamilyDrawing& drawing : drawings) {

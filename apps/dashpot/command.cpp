@@ -21,6 +21,12 @@ Option threads_option(int& threads) {
           .default_text = "all cores"};
 }
 
+Option figures_option(bool& figures) {
+  return {.names = "--figures",
+          .target = &figures,
+          .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"};
+}
+
 std::string Option::long_name() const { return names.substr(names.find(',') + 1); }
 
 void append(std::vector<Option>& options, const std::vector<Option>& more) {

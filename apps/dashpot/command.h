@@ -63,6 +63,7 @@ inline bool is_path(const std::string& word) {
 /// Rows that several commands have.
 Option seed_option(std::uint64_t& seed);
 Option threads_option(int& threads);
+Option figures_option(bool& figures);
 
 void append(std::vector<Option>& options, const std::vector<Option>& more);
 

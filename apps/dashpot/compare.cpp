@@ -119,6 +119,8 @@ Command compare_command() {
                            "dataset files)",
                    .takes = Takes::File,
                    .required = true},
+
+                  // How they are compared, and where the page goes.
                   speeds_option(settings->speeds),
                   {.names = "--velocity-cutoff",
                    .target = &settings->cutoff_hz,

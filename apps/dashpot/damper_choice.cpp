@@ -22,19 +22,26 @@ std::vector<Option> damper_options(DamperChoice& choice) {
            .noun = "parameter set"}};
 }
 
+Option current_max_option(double& current_max) {
+  return {.names = "--current-max",
+          .target = &current_max,
+          .help = "greatest current, A (or V)",
+          .value = "A",
+          .minimum = 0,
+          .default_text = "that of the damper's data"};
+}
+
+Option lag_rate_option(double& lag_rate) {
+  return {.names = "--lag-rate",
+          .target = &lag_rate,
+          .help = "rate of the coil's lag, 1/s; 0: no lag",
+          .value = "1/S",
+          .minimum = 0,
+          .default_text = "the damper's own"};
+}
+
 std::vector<Option> coil_options(DamperChoice& choice) {
-  return {{.names = "--current-max",
-           .target = &choice.current_max,
-           .help = "greatest current in A (or voltage in V)",
-           .value = "A",
-           .minimum = 0,
-           .default_text = "that of the damper's data"},
-          {.names = "--lag-rate",
-           .target = &choice.lag_rate,
-           .help = "rate of the coil's lag, 1/s; 0: no lag",
-           .value = "1/S",
-           .minimum = 0,
-           .default_text = "the model's own"}};
+  return {current_max_option(choice.current_max), lag_rate_option(choice.lag_rate)};
 }
 
 ModelFile load_damper_file(const DamperChoice& choice, const std::string& command,

@@ -18,8 +18,12 @@ struct DamperChoice {
   bool is_made() const { return !model.empty() || !parameters.empty(); }
 };
 
-/// MODEL and --parameters; --current-max and --lag-rate.
+/// MODEL and --parameters.
 std::vector<Option> damper_options(DamperChoice& choice);
+
+/// --current-max and --lag-rate, of the coil in front of a damper.
+Option current_max_option(double& current_max);
+Option lag_rate_option(double& lag_rate);
 std::vector<Option> coil_options(DamperChoice& choice);
 
 /// Warns where the damper feeds energy into some motions. Throws UsageError where not exactly one

@@ -117,6 +117,8 @@ Command identify_command() {
       .options = ranking_options(settings->ranking),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};
+
+  // The effort, what a fit starts from, and what judges it beside the records left out.
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
                            fresh_option(settings->ranking)});
   append(command.options,
@@ -128,6 +130,8 @@ Command identify_command() {
            .value = "FOLDER",
            .takes = Takes::File}});
   append(command.options, kit_options(settings->kit));
+
+  // The vehicle that the models are ridden in, or the plant that the damper was recorded in.
   append(command.options, ride_rank_options(settings->ride));
   append(command.options,
          {{.names = "--in",

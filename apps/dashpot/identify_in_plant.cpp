@@ -37,6 +37,8 @@ void require_meaning(const RankingSettings& settings) {
   const auto refuse = [](bool stated, const std::string& option, const std::string& right) {
     if (stated) throw UsageError(option, "has no meaning with --in", right);
   };
+
+  // Each option with what says the same inside a plant.
   const FitSettings& fit = settings.fit;
   refuse(!settings.leave_out.empty(), "--leave-out",
          "'held_back' of the plant says which share of each recording judges the fit");
@@ -47,6 +49,8 @@ void require_meaning(const RankingSettings& settings) {
   refuse(!settings.data.load.dataset_file.empty(), "--dataset",
          "the plant says which channel is which");
   refuse(settings.results.figures, "--figures", "the page has its figures");
+
+  // Laws alone, and by their names: none is usual there.
   if (fit.models == std::vector<std::string>{"usual"})
     throw UsageError("--models", "is not stated",
                      "with --in, name the laws that are to be fitted: --models modified_bouc_wen");
@@ -89,10 +93,12 @@ DocumentTable sensor_table(const InPlantReport& report) {
                                   {"held back %", true},
                                   {"offset", true, 1}},
                       .rows = {}};
+
   for (const SensorFigures& s : report.sensors)
     table.rows.push_back({s.recording, s.channel, s.unit, format_number(s.rms),
                           format_number(s.training), format_number(s.held_back),
                           format_number(100 * s.held_back / s.rms, 3), format_number(s.offset, 3)});
+
   table.note =
       "Errors are rms, after the sensor's offset in the part that was fitted; the time held back "
       "was seen by no fit, and the plant runs free from the first sample on.";

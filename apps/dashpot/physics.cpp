@@ -166,11 +166,13 @@ Value calibration_json(const PhysicsCalibration& found) {
                                             {"high", number.high},
                                             {"unit", number.unit},
                                             {"known", number.is_known}}));
+
   for (const PhysicsCalibration::Level& level : found.levels)
     levels.push_back(Value::object({{"current", level.current},
                                     {"field", level.field},
                                     {"yield_stress", level.yield_stress},
                                     {"ratio", level.ratio}}));
+
   return Value::object({{"numbers", std::move(numbers)},
                         {"levels", std::move(levels)},
                         {"esr_before", found.esr_before},

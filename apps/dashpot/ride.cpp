@@ -155,9 +155,7 @@ Command ride_command() {
                             .help = "folder for the page",
                             .value = "DIR",
                             .takes = Takes::Folder},
-                           {.names = "--figures",
-                            .target = &settings->results.figures,
-                            .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
+                           figures_option(settings->results.figures),
                            list_option(settings->list)});
   return command;
 }

@@ -168,9 +168,7 @@ Command simulate_command() {
         .help = "also write all samples of the traces as plain doubles, for programs that draw",
         .value = "DIR",
         .takes = Takes::Folder},
-       {.names = "--figures",
-        .target = &settings->results.figures,
-        .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
+       figures_option(settings->results.figures),
        list_option(settings->list)});
   return command;
 }

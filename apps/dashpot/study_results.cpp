@@ -13,9 +13,7 @@ std::vector<Option> study_result_options(StudyResults& results, const std::strin
            .help = "folder for the page and the " + kept,
            .value = "DIR",
            .takes = Takes::Folder},
-          {.names = "--figures",
-           .target = &results.figures,
-           .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
+          figures_option(results.figures),
           {.names = "--fresh",
            .target = &results.fresh,
            .help = "neither use nor keep finished " + kept}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "damper_choice.h"
 #include "dashpot/base/text.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 
@@ -56,18 +57,8 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
        .help = "constant current, A (or V, or a place from 0 to 1), where there is no controller",
        .value = "A",
        .minimum = 0},
-      {.names = "--current-max",
-       .target = &choice.current_max,
-       .help = "greatest current, A (or V)",
-       .value = "A",
-       .minimum = 0,
-       .default_text = "that of the damper's data"},
-      {.names = "--lag-rate",
-       .target = &choice.lag_rate,
-       .help = "rate of the coil's lag, 1/s; 0: no lag",
-       .value = "1/S",
-       .minimum = 0,
-       .default_text = "the damper's own"},
+      current_max_option(choice.current_max),
+      lag_rate_option(choice.lag_rate),
 
       // The controller's clock and its sensors.
       {.names = "--sample-time",

@@ -184,6 +184,8 @@ void Jobs::take_line(Job& job, std::string_view line, double seconds) {
   } catch (const Error&) {
     return;
   }
+
+  // Each line has some of these.
   const std::lock_guard lock(mutex_);
   if (const Value* stage = value.find("stage")) job.stage = stage->as_string();
   if (const Value* fraction = value.find("fraction")) job.fraction = fraction->as_number();
@@ -192,6 +194,8 @@ void Jobs::take_line(Job& job, std::string_view line, double seconds) {
   if (const Value* parameters = value.find("parameters"))
     job.parameters = Value::object({{"of", job.stage}, {"values", *parameters}});
   if (const Value* row = value.find("judged")) job.judged.push_back(*row);
+
+  // Whoever waits for news is told.
   ++version_;
   condition_.notify_all();
 }

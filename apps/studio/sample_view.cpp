@@ -95,6 +95,8 @@ std::pair<std::size_t, std::size_t> window_of(std::span<const double> time, doub
 
 Curve thin_in_time(std::span<const double> x, std::span<const double> y, std::size_t columns) {
   if (x.size() <= 3 * columns) return {{x.begin(), x.end()}, {y.begin(), y.end()}};
+
+  // The lowest and the highest sample of each column, in their order.
   Curve curve;
   const std::size_t count = x.size();
   for (std::size_t k = 0; k < columns; ++k) {

@@ -184,6 +184,7 @@ void WorkRoutes::add_work(httplib::Server& server) {
 }
 
 void WorkRoutes::add_machine(httplib::Server& server) {
+  // What a vehicle can be put together of.
   server.Get("/api/machine", [](const Request&, Response& response) {
     Value kinds = Value::array();
     for (const PlantModel* model : plant_models())
@@ -200,6 +201,8 @@ void WorkRoutes::add_machine(httplib::Server& server) {
     for (const std::string& design : project_.models("designs")) models.push_back(design);
     answer(response, Value::object({{"models", Value::array(models)}}));
   });
+
+  // One drive, and its signals as they are looked at.
   server.Post("/api/drive", [this](const Request& request, Response& response) {
     answer(response, drives_.drive(body_of(request)));
   });
@@ -219,6 +222,7 @@ void WorkRoutes::add_design(httplib::Server& server) {
 }
 
 void WorkRoutes::add_export(httplib::Server& server) {
+  // The formats that there are, and the exports of this project.
   server.Get("/api/formats", [](const Request&, Response& response) {
     Value list = Value::array();
     for (const Exporter& exporter : exporters())
@@ -231,6 +235,8 @@ void WorkRoutes::add_export(httplib::Server& server) {
   server.Get("/api/exports", [this](const Request&, Response& response) {
     answer(response, Value::object({{"exports", exports(project_)}}));
   });
+
+  // A new export, and one file of an export or all of them as an archive.
   server.Post("/api/export", [this](const Request& request, Response& response) {
     answer(response, export_model(project_, body_of(request)));
   });

@@ -2,36 +2,24 @@
 // usage: node click.mjs EXAMPLE_PAGES_PROGRAM [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {existsSync, mkdtempSync, rmSync} from "node:fs";
+import {mkdtempSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
-
-const kChromium = "/usr/bin/chromium";
-const kFlags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-
-function skip(reason) {
-  console.log(`SKIPPED: ${reason}`);
-  process.exit(77);
-}
+import {find_browser, has_ink, watch} from "./browser.mjs";
 
 const [program, screenshots] = process.argv.slice(2);
-const playwright = await import("playwright-core").catch(() => skip("playwright-core is not in node_modules; run 'npm ci --ignore-scripts'"));
-if (!existsSync(kChromium)) skip(`${kChromium} is missing; install chromium`);
+const start_browser = await find_browser();
 
 const folder = mkdtempSync(join(tmpdir(), "dashpot-page-"));
 execFileSync(program, [folder]);
-const context = await playwright.chromium.launchPersistentContext(join(folder, "profile"),
-  {executablePath: kChromium, args: kFlags, viewport: {width: 1280, height: 900}, colorScheme: "light"});
+const context = await start_browser(join(folder, "profile"));
 
 // A fresh page that fails the test on any script error and on any request that is not its own file.
 async function open(name, options = {}) {
   const page = await context.newPage();
   const problems = [];
-  page.on("pageerror", (error) => problems.push(error.stack));
-  page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
-  page.on("request", (request) => { if (!request.url().startsWith("file://")) problems.push(`asked for ${request.url()}`); });
+  watch(page, problems, /^file:\/\//);
   if (options.width) await page.setViewportSize({width: options.width, height: 900});
   await page.emulateMedia({colorScheme: options.scheme ?? "light"});
   await page.goto(pathToFileURL(join(folder, name)).href);
@@ -49,17 +37,6 @@ async function open(name, options = {}) {
 
 const plot = (page, title) => page.locator("figure.plot", {has: page.getByRole("heading", {name: title, exact: true})});
 const first_model = (page) => page.locator("#ranking tbody th").first().textContent();
-
-// Whether a curve was drawn: axes and grid are grey, curves are coloured.
-const has_ink = (figure) => figure.locator("canvas").evaluate((canvas) => {
-  const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  let coloured = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    const rgb = [data[i], data[i + 1], data[i + 2]];
-    if (data[i + 3] > 128 && Math.max(...rgb) - Math.min(...rgb) > 60) coloured++;
-  }
-  return coloured > 150;
-});
 
 async function ranking(page) {
   assert.match(await page.locator(".verdict").textContent(), /Modified Bouc-Wen.*worst record/);

@@ -2,22 +2,15 @@
 // is seen. usage: node sliders.mjs DASHPOT [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
+import {mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
+import {find_browser, kStudio, watch} from "../page/browser.mjs";
 import {make_folder, remove_folder, start} from "./studio.mjs";
 
-const kChromium = "/usr/bin/chromium", kMoves = 100, kLongest = 50;  // ms
-const kFlags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-
-function skip(reason) {
-  console.log(`SKIPPED: ${reason}`);
-  process.exit(77);
-}
+const kMoves = 100, kLongest = 50;  // ms
 
 const [program, screenshots] = process.argv.slice(2);
-const playwright = await import("playwright-core").catch(() => skip("playwright-core is not in node_modules; run 'npm ci --ignore-scripts'"));
-if (!existsSync(kChromium)) skip(`${kChromium} is missing; install chromium`);
+const start_browser = await find_browser();
 
 // A few recordings of the virtual bench, and three models fitted as the studio fits them.
 const scratch = make_folder(), folder = join(scratch, "project");
@@ -32,13 +25,10 @@ for (const gap of [1, 1.8]) for (const length of [6, 12])
 run("bench", "--family", drawings, "--levels", "0,0.5,1.5", "--motions", "20x0.6,8x2", "--cycles", "2", "--sample-rate", "30", "--velocity-sensor", "--zero-drift", "0", "--output", dampers);
 run("rank", dampers, "--models", "family_physics", "--leave-out", "each=gap", "--starts", "1", "--force-offset", "none", "--output", join(folder, "fits", "dampers"));
 const studio = await start(program, folder);
-const context = await playwright.chromium.launchPersistentContext(join(scratch, "profile"),
-  {executablePath: kChromium, args: kFlags, viewport: {width: 1280, height: 900}, colorScheme: "light"});
+const context = await start_browser(join(scratch, "profile"));
 const problems = [];
 const page = await context.newPage();
-page.on("pageerror", (error) => problems.push(error.stack));
-page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
-page.on("request", (request) => { if (!/^(http:\/\/127\.0\.0\.1:|data:|blob:)/.test(request.url())) problems.push(`asked for ${request.url()}`); });
+watch(page, problems, kStudio);
 page.setDefaultTimeout(30000);
 
 const plot = (title) => page.locator("figure", {has: page.getByRole("heading", {name: title, exact: true})});

@@ -7,20 +7,11 @@ import {execFileSync} from "node:child_process";
 import {cpSync, existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 import {check_reach} from "./reach.mjs";
+import {find_browser, has_ink, kStudio, watch} from "../page/browser.mjs";
 import {make_folder, remove_folder, start} from "./studio.mjs";
 
-const kChromium = "/usr/bin/chromium";
-const kFlags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
-
-function skip(reason) {
-  console.log(`SKIPPED: ${reason}`);
-  process.exit(77);
-}
-
 const [program, screenshots] = process.argv.slice(2);
-const playwright = await import("playwright-core").catch(() => skip("playwright-core is not in node_modules; run 'npm ci --ignore-scripts'"));
-if (!existsSync(kChromium)) skip(`${kChromium} is missing; install chromium`);
+const start_browser = await find_browser();
 
 // Twenty recordings of the virtual bench, one of which lies about its unit, and a messy folder.
 const scratch = make_folder(), folder = join(scratch, "project"), bench = join(scratch, "bench");
@@ -38,14 +29,11 @@ writeFileSync(join(messy, "deep", ".hidden", "secret.csv"), "t_s,x_mm,F_N\n0,1,2
 writeFileSync(join(messy, "broken.csv"), "t_s,x_mm,F_N\n0,1,2\n0.1,abc,3\n0.2,1,2\n");
 
 let studio = await start(program, folder);
-const context = await playwright.chromium.launchPersistentContext(join(scratch, "profile"),
-  {executablePath: kChromium, args: kFlags, viewport: {width: 1280, height: 900}, colorScheme: "light"});
+const context = await start_browser(join(scratch, "profile"));
 const problems = [];
 async function open(address) {
   const page = await context.newPage();
-  page.on("pageerror", (error) => problems.push(error.stack));
-  page.on("console", (message) => { if (message.type() === "error" && !/401|ERR_CONNECTION/.test(message.text())) problems.push(message.text()); });
-  page.on("request", (request) => { if (!/^(http:\/\/127\.0\.0\.1:|data:|blob:)/.test(request.url())) problems.push(`asked for ${request.url()}`); });
+  watch(page, problems, kStudio, /401|ERR_CONNECTION/);
   page.setDefaultTimeout(60000);
   await page.goto(address);
   await page.waitForSelector("html[data-ready]");
@@ -55,16 +43,6 @@ const shoot = async (page, name) => { if (screenshots) await page.screenshot({pa
 const tab = (page, name) => page.getByRole("tab", {name}).click();
 const plot = (page, title) => page.locator("figure", {has: page.getByRole("heading", {name: title, exact: true})});
 
-// Whether a curve was drawn: axes and grid are grey, curves are coloured.
-const has_ink = (figure) => figure.locator("canvas").evaluate((canvas) => {
-  const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  let coloured = 0;
-  for (let i = 0; i < data.length; i += 4) {
-    const rgb = [data[i], data[i + 1], data[i + 2]];
-    if (data[i + 3] > 128 && Math.max(...rgb) - Math.min(...rgb) > 60) coloured++;
-  }
-  return coloured > 150;
-});
 const until_ink = async (figure) => {
   await figure.locator("canvas").waitFor();
   for (let k = 0; k < 60; ++k) {

@@ -286,16 +286,22 @@ void DesignRun::add_sensitivities() {
 
 DesignReport DesignRun::run() {
   const auto start = std::chrono::steady_clock::now();
+
+  // Places to begin at: an earlier front, or the best for each goal; where none is possible, those
+  // that show why.
   const bool hopeless = is_hopeless();
   std::vector<std::vector<double>> places;
   if (!hopeless && report_.request.goals.size() > 1) places = earlier_places();
   if (!hopeless && places.empty()) places = best_of_each_goal();
   if (places.empty() && !hopeless && !report_.stopped) places = explain();
+
+  // The front between several goals, and what is to be known of its designs.
   if (report_.request.goals.size() > 1 && !places.empty() && !report_.stopped)
     places = front_from(std::move(places));
   add_designs(places);
   name_roles();
   add_sensitivities();
+
   for (const DesignModel* model : {model_.get(), second_.get()})
     if (model && model->has_refused())
       report_.notes.push_back(
@@ -305,6 +311,7 @@ DesignReport DesignRun::run() {
                : fmt::format(", or lies {} times further from the plate flow's than at a damper of "
                              "its fit",
                              kMostLeap)));
+
   report_.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return std::move(report_);

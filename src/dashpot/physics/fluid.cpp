@@ -7,6 +7,7 @@
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/physics/flux_curve.h"
 #include "dashpot/physics/named_file.h"
 #include "dashpot/physics/read_points.h"
 
@@ -56,12 +57,7 @@ void read_flux_law(const Value& value, FluidLaw& law) {
     throw Error(value.where(), "the field over the flux density is not stated once",
                 "one of volume_fraction, points and polynomial");
   if (fraction) law.volume_fraction = read_share(*fraction, "volume_fraction");
-  if (points) {
-    law.flux_densities = read_points(*points, "A/m", "T");
-    require_rising(law.flux_densities, *points, "the flux density", true);
-    if (law.flux_densities.front().second != 0)
-      throw Error(points->where(), "there is a flux density without field", "a first point [0, 0]");
-  }
+  if (points) law.flux_densities = read_flux_curve(*points);
   if (polynomial) {
     const std::vector<double> c = polynomial->as_numbers();
     if (c.size() != 2 || !(c[0] > 0 && c[1] >= 0 && std::isfinite(c[0] + c[1])))
@@ -157,15 +153,7 @@ void read_viscosity(const Value& value, Fluid& fluid) {
 double FluidLaw::field(double flux_density) const {
   if (has_field_polynomial) return family_field(&polynomial, flux_density);
   if (flux_densities.empty()) return carlson_field(volume_fraction, flux_density);
-
-  // Beyond the last point the fluid adds nothing to the vacuum.
-  const auto& last = flux_densities.back();
-  if (flux_density >= last.second) return last.first + (flux_density - last.second) / DASHPOT_MU0;
-  for (std::size_t k = 1;; ++k) {
-    const auto &a = flux_densities[k - 1], &b = flux_densities[k];
-    if (flux_density < b.second)
-      return a.first + (b.first - a.first) * (flux_density - a.second) / (b.second - a.second);
-  }
+  return field_on(flux_densities, flux_density);
 }
 
 double FluidLaw::yield_stress(double field, double carrier) const {
@@ -202,9 +190,7 @@ std::shared_ptr<const Fluid> find_fluid(std::string_view name, const std::string
 Fluid read_fluid(const Value& value) {
   ObjectReader reader(value, "a fluid");
   Fluid fluid;
-  fluid.name = reader.string("name");
-  fluid.source = reader.string("source", "");
-  fluid.note = reader.string("note", "");
+  read_words(reader, fluid);
   read_density(reader.required("density"), fluid);
   if (const Value* solids = reader.optional("solids")) fluid.solids = read_share(*solids, "solids");
   read_viscosity(reader.required("viscosity"), fluid);
@@ -237,9 +223,45 @@ Fluid read_fluid(const Value& value) {
   return fluid;
 }
 
+namespace {
+
+/// H over B as its file states it.
+Value flux_json(const FluidLaw& law) {
+  const double* const c = law.polynomial.field;
+  if (law.has_field_polynomial)
+    return Value::object({{"polynomial", Value::array(std::vector<double>(c, c + 2))}});
+  if (law.flux_densities.empty()) return Value::object({{"volume_fraction", law.volume_fraction}});
+  return Value::object({{"points", points_json(law.flux_densities)}});
+}
+
+/// tau over H, likewise.
+Value yield_json(const FluidLaw& law) {
+  const double* const c = law.polynomial.yield;
+  if (law.has_yield_polynomial)
+    return Value::object({{"polynomial", Value::array(std::vector<double>(c, c + 4))},
+                          {"up_to", law.polynomial.held_field}});
+  return Value::object({{"points", points_json(law.yield_stresses)}});
+}
+
+Value law_json(const FluidLaw& law) {
+  Value out = Value::object();
+  const bool carlson = !law.has_yield_polynomial && law.yield_stresses.empty();
+  if (carlson) {
+    out.add("volume_fraction", law.volume_fraction);
+  } else {
+    out.add("field", flux_json(law));
+    out.add("yield_stress", yield_json(law));
+  }
+  if (!law.verified) out.add("verified", false);
+  if (law.scale != 1) out.add("scale", law.scale);
+  if (!law.faults.empty()) out.add("faults", Value::array(law.faults));
+  return out;
+}
+
+}  // namespace
+
 Value to_json(const Fluid& fluid) {
-  Value out = Value::object({{"name", fluid.name}, {"source", fluid.source}});
-  if (!fluid.note.empty()) out.add("note", fluid.note);
+  Value out = words_json(fluid);
   out.add("density", Value::object({{"from", fluid.density_min}, {"to", fluid.density_max}}));
   if (fluid.solids > 0) out.add("solids", fluid.solids);
   out.add("viscosity", fluid.viscosities.size() == 1 ? Value(fluid.viscosities.front().second)
@@ -249,31 +271,7 @@ Value to_json(const Fluid& fluid) {
             Value::object({{"index", fluid.index}, {"shear_rate", fluid.shear_rate}}));
 
   Value laws = Value::object();
-  for (const FluidLaw& law : fluid.laws) {
-    Value one = Value::object();
-    const auto numbers = [](const double* first, const double* last) {
-      return Value::array(std::vector<double>(first, last));
-    };
-    const FamilyFluid& p = law.polynomial;
-    const bool carlson = !law.has_yield_polynomial && law.yield_stresses.empty();
-    if (carlson) {
-      one.add("volume_fraction", law.volume_fraction);
-    } else {
-      one.add("field", law.has_field_polynomial
-                           ? Value::object({{"polynomial", numbers(p.field, p.field + 2)}})
-                       : law.flux_densities.empty()
-                           ? Value::object({{"volume_fraction", law.volume_fraction}})
-                           : Value::object({{"points", points_json(law.flux_densities)}}));
-      one.add("yield_stress", law.has_yield_polynomial
-                                  ? Value::object({{"polynomial", numbers(p.yield, p.yield + 4)},
-                                                   {"up_to", p.held_field}})
-                                  : Value::object({{"points", points_json(law.yield_stresses)}}));
-    }
-    if (!law.verified) one.add("verified", false);
-    if (law.scale != 1) one.add("scale", law.scale);
-    if (!law.faults.empty()) one.add("faults", Value::array(law.faults));
-    laws.add(law.name, std::move(one));
-  }
+  for (const FluidLaw& law : fluid.laws) laws.add(law.name, law_json(law));
   out.add("laws", std::move(laws));
   if (fluid.yield_uncertainty > 0 || fluid.viscosity_uncertainty > 0)
     out.add("uncertainty", Value::object({{"yield_stress", fluid.yield_uncertainty},

@@ -52,4 +52,21 @@ std::shared_ptr<const Thing> find_named(const NamedFiles<Thing>& files, std::str
   return known[std::string(name)] = load(data_folder(files.folder) / file);
 }
 
+/// The words that stand in every such file: its name, which it must have, where its numbers come
+/// from, and what is to be known of them.
+template <class Thing>
+void read_words(ObjectReader& reader, Thing& thing) {
+  thing.name = reader.string("name");
+  thing.source = reader.string("source", "");
+  thing.note = reader.string("note", "");
+}
+
+/// An object that begins with these words.
+template <class Thing>
+Value words_json(const Thing& thing) {
+  Value out = Value::object({{"name", thing.name}, {"source", thing.source}});
+  if (!thing.note.empty()) out.add("note", thing.note);
+  return out;
+}
+
 }  // namespace dashpot

@@ -5,22 +5,13 @@
 
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/physics/fluid_curves.h"
+#include "dashpot/physics/flux_curve.h"
 #include "dashpot/physics/named_file.h"
 #include "dashpot/physics/read_points.h"
 
 namespace dashpot {
 
-double Steel::field(double flux_density) const {
-  const double b = flux_density / scale;
-  const auto& last = points.back();
-  if (b >= last.second) return last.first + (b - last.second) / DASHPOT_MU0;
-  for (std::size_t k = 1;; ++k) {
-    const auto &lower = points[k - 1], &upper = points[k];
-    if (b < upper.second)
-      return lower.first +
-             (upper.first - lower.first) * (b - lower.second) / (upper.second - lower.second);
-  }
-}
+double Steel::field(double flux_density) const { return field_on(points, flux_density / scale); }
 
 double Steel::flux_density(double field) const {
   const auto& last = points.back();
@@ -44,16 +35,11 @@ std::shared_ptr<const Steel> find_steel(std::string_view name, const std::string
 Steel read_steel(const Value& value) {
   ObjectReader reader(value, "a steel");
   Steel steel;
-  steel.name = reader.string("name");
-  steel.source = reader.string("source", "");
-  steel.note = reader.string("note", "");
+  read_words(reader, steel);
 
   // Points, or the two numbers of the soft knee.
   if (const Value* points = reader.optional("points")) {
-    steel.points = read_points(*points, "A/m", "T");
-    require_rising(steel.points, *points, "the flux density", true);
-    if (steel.points.front().second != 0)
-      throw Error(points->where(), "there is a flux density without field", "a first point [0, 0]");
+    steel.points = read_flux_curve(*points);
     if (const Value* scale = reader.optional("scale")) steel.scale = read_quantity(*scale, "1");
   } else {
     steel.permeability = read_quantity(reader.required("permeability"), "1");
@@ -70,8 +56,7 @@ Steel read_steel(const Value& value) {
 }
 
 Value to_json(const Steel& steel) {
-  Value out = Value::object({{"name", steel.name}, {"source", steel.source}});
-  if (!steel.note.empty()) out.add("note", steel.note);
+  Value out = words_json(steel);
   if (steel.points.empty()) {
     out.add("permeability", steel.permeability);
     out.add("saturation", steel.saturation);

@@ -62,6 +62,8 @@ DocumentTable level_table(const Characterisation& all) {
                                   {"Knee compr.", true},
                                   {"From", false, 5}},
                       .rows = {}};
+
+  // Forces in N, speeds and knees in mm/s, rates in N/mm.
   for (const LevelFigures& level : all.levels)
     table.rows.push_back(
         {level_name(level, all.drive_unit), std::to_string(level.speeds.size()),
@@ -70,6 +72,7 @@ DocumentTable level_table(const Characterisation& all) {
          estimate_text(level.static_force), estimate_text(level.rate, 1 / kMilli),
          estimate_text(level.rebound.knee, kMilli), estimate_text(level.compression.knee, kMilli),
          level.basis});
+
   table.note =
       "± one standard error. Friction: half of the jump of force between the directions towards "
       "v = 0. Yield: where the lines above the knees meet v = 0, friction and field together. "

@@ -55,6 +55,8 @@ DocumentTable fit_table(const std::vector<ComparedThing>& things) {
                                   {"Worst record", false, 1, true},
                                   {"Seen", true}},
                       .rows = {}};
+
+  // A recording among the things has no errors; a model that has seen records is marked.
   for (const ComparedThing& thing : things) {
     if (!thing.evaluation) continue;
     const Evaluation& e = *thing.evaluation;
@@ -67,6 +69,7 @@ DocumentTable fit_table(const std::vector<ComparedThing>& things) {
                     {std::to_string(thing.seen)}});
     table.warnings.push_back(thing.seen > 0);
   }
+
   table.note =
       "Free run, with a free force zero per record. Seen: records that taught the model; "
       "its errors there are no judgement.";

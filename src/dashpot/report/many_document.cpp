@@ -313,7 +313,8 @@ ColumnTable many_table(const ManyReport& report) {
 }
 
 Value many_json(const ManyReport& report) {
-  Value population = Value::array(), outliers = Value::array(), failures = Value::array();
+  // What is usual among the dampers, and what drifts.
+  Value population = Value::array();
   for (std::size_t q = 0; q < report.quantities.size(); ++q) {
     const Quantity& quantity = report.quantities[q];
     const Usual& usual = report.population.usual[q];
@@ -328,6 +329,9 @@ Value many_json(const ManyReport& report) {
                                         {"drift_per_serial", usual.drift.slope},
                                         {"drift_probability", usual.drift.probability}}));
   }
+
+  // The dampers that stand out, and those without a result.
+  Value outliers = Value::array(), failures = Value::array();
   for (const Outlier& outlier : report.population.outliers)
     outliers.push_back(Value::object({{"damper", report.rows[outlier.damper].name},
                                       {"serial", report.rows[outlier.damper].serial},
@@ -338,6 +342,7 @@ Value many_json(const ManyReport& report) {
   for (const DamperRow& row : report.rows)
     if (!row.failure.empty())
       failures.push_back(Value::object({{"damper", row.name}, {"why", row.failure}}));
+
   return Value::object({{"dampers", report.rows.size()},
                         {"fitted", report.fitted()},
                         {"models", Value::array(report.options.models)},

@@ -78,8 +78,8 @@ TEST_CASE(
             identify("narx_one_sensor", training, DriveUnit::Ampere, options).model->to_json()) ==
         format_json(one.model->to_json()));
   std::size_t tried = 0;
-  for (const char* price : {"1e-2", "1e-3", "1e-4", "1e-5"}) {
-    const std::string settings = std::string("hidden=3,epochs=5,l2=") + price;
+  for (const char* decay : {"1e-2", "1e-3", "1e-4", "1e-5"}) {
+    const std::string settings = std::string("hidden=3,epochs=5,l2=") + decay;
     tried += format_json(identify("narx_one_sensor", training, DriveUnit::Ampere, with(settings))
                              .model->to_json()) == format_json(one.model->to_json());
   }

@@ -16,12 +16,12 @@ constexpr Index kGramBlock = 256;  // samples of which a Gram matrix is made at 
 
 /// The problem linearised at one point: the Gram matrix of [J r], (n + 1) x (n + 1) and divided by
 /// the number of samples, with the records' best offsets taken out of it, and these offsets; and
-/// with the prices.
+/// with the penalties.
 struct System {
   MatrixXd gram;
   std::vector<double> offsets;
   double offset_penalty = 0;  ///< of the offsets, per sample; part of squares()
-  double price = 0;           ///< part of squares(), too
+  double penalty = 0;         ///< part of squares(), too
 
   double squares() const { return gram(gram.rows() - 1, gram.cols() - 1); }
 };
@@ -59,10 +59,10 @@ class GramSink final : public RowSink {
     sums_.setZero();
   }
 
-  void add_price(const std::vector<double>& row) override {
+  void add_penalty(const std::vector<double>& row) override {
     prices_.selfadjointView<Eigen::Lower>().rankUpdate(VectorXd::Map(row.data(), prices_.rows()));
     is_priced_ = true;
-    system_.price += row.back() * row.back();
+    system_.penalty += row.back() * row.back();
   }
 
   System system() {
@@ -185,7 +185,7 @@ FreeRunSearchResult search(const FreeRunProblem& problem, const FreeRunSearchOpt
   result.offsets = search.system().offsets;
   result.cost = search.cost();
   result.rms = std::sqrt(std::max(
-      0.0, search.system().squares() - search.system().offset_penalty - search.system().price));
+      0.0, search.system().squares() - search.system().offset_penalty - search.system().penalty));
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace dashpot {
 ///     + (1 / samples) sum over k of offset_decay (samples of k) o_k^2
 ///     + sum over p of r_p^2
 ///
-/// The last sum is over prices, terms that belong to no sample: what a model costs beside its
+/// The last sum is over penalties, terms that belong to no sample: what a model costs beside its
 /// errors.
 ///
 /// The offsets o_k, one per record, are linear and are eliminated exactly: the columns of [J r] are
@@ -32,9 +32,9 @@ class RowSink {
   virtual double* row() = 0;
   /// The samples since the last call belong to one record and share its offset.
   virtual void end_record() = 0;
-  /// A price: n + 1 numbers as a row, whose square is one more term of the cost, whatever the
+  /// A penalty: n + 1 numbers as a row, whose square is one more term of the cost, whatever the
   /// number of samples; without an offset.
-  virtual void add_price(const std::vector<double>& row) = 0;
+  virtual void add_penalty(const std::vector<double>& row) = 0;
 };
 
 /// The problem. `start`, `decay` and `anchors` have one number per unknown. All weights of

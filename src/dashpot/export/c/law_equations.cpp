@@ -83,6 +83,8 @@ class FunctionBody {
  private:
   std::string expression(const LawNode& node) const {
     const auto argument = [&](std::size_t k) { return texts_[node.of[k]]; };
+
+    // Numbers and names, and the two operations that C writes unlike all others.
     switch (node.op) {
       case LawOp::Number:
         return c_number(node.number);
@@ -103,6 +105,8 @@ class FunctionBody {
       default:
         break;
     }
+
+    // An operator between two arguments, or a function of one or two.
     if (const std::string_view sign = operator_of(node.op); !sign.empty())
       return "(" + argument(0) + std::string(sign) + argument(1) + ")";
     return std::string(c_function_of(node.op)) + "(" + argument(0) +

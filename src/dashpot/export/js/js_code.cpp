@@ -337,6 +337,7 @@ class Translator {
   std::string statement_text(const CStatement& statement) {
     using Is = CStatement::Kind;
     switch (statement.kind) {
+      // What has no effect leaves no text.
       case Is::Block: {
         const std::string inside = block(statement);
         return inside.empty() ? "" : line("{") + inside + line("}");
@@ -350,6 +351,8 @@ class Translator {
         const std::string text = effect(statement.exprs[0]);
         return text.empty() ? "" : line(text + ";");
       }
+
+      // The way through the statements, which is C's own.
       case Is::If: {
         const std::string condition = truth(statement.exprs[0]).text;
         std::string text = line("if (" + condition + ") {") + block(statement.parts[0]);
@@ -494,6 +497,7 @@ class Translator {
 
   Js evaluate(const CExpr& expr) {
     switch (expr.kind) {
+      // A number, a name or what lies in memory: JavaScript's variables have no address.
       case Node::Number:
         return {format_exact(expr.number),
                 Bind::Atom,
@@ -509,6 +513,8 @@ class Translator {
       case Node::Index:
       case Node::Member:
         return read(place(expr));
+
+      // What is computed of others.
       case Node::Unary:
         return unary(expr);
       case Node::Binary:

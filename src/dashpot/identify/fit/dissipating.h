@@ -8,7 +8,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/nets/activity_price.h"
+#include "dashpot/damper/nets/activity_penalty.h"
 #include "dashpot/damper/probe_sine.h"
 #include "dashpot/identify.h"
 #include "dashpot/identify/fit/member_report.h"
@@ -16,17 +16,17 @@
 namespace dashpot {
 
 /// The decay of moves of rates in a training that pays: they all but stay, and with them the ranges
-/// within which the model will hold its signals, which the price must know beforehand.
+/// within which the model will hold its signals, which the penalty must know beforehand.
 constexpr double kPaidRateDecay = 1e3;
 
 /// The report on a fitted ensemble. One that feeds energy into motions is trained on from where it
-/// stands while it pays for that (ActivityPrice), at a price that rises until the measured verdict
+/// stands while it pays for that (ActivityPenalty), at a penalty that rises until the measured verdict
 /// holds; a note says what that costs. It pays for the sines of the verdict that took out little
-/// when they were last measured: the others cost nothing, and most do. Where no price is enough, or
+/// when they were last measured: the others cost nothing, and most do. Where no penalty is enough, or
 /// the user allows it, the ensemble stays as it fits best.
 ///
-/// make_model(members) gives the ensemble's model; train_on(member, price) trains one member on and
-/// renews its `report`.
+/// make_model(members) gives the ensemble's model; train_on(member, penalty) trains one member on
+/// and renews its `report`.
 template <class Member, class MakeModel, class TrainOn>
 FitReport report_of_dissipating(std::vector<Member> members, const std::vector<Record>& training,
                                 DriveUnit drive_unit, const IdentifyOptions& options,
@@ -49,7 +49,7 @@ FitReport report_of_dissipating(std::vector<Member> members, const std::vector<R
   const auto is_active = [](const ProbedCycle& cycle) { return cycle.is_active(); };
   if (std::ranges::none_of(cycles, is_active)) return active;
 
-  // Raise the price until the verdict holds; not where what fails was not paid for yet.
+  // Raise the penalty until the verdict holds; not where what fails was not paid for yet.
   std::vector<bool> is_paid(sines.size());
   std::size_t step = 0;
   for (int round = 0; round < kMostRounds && step < kWeights.size(); ++round) {
@@ -58,9 +58,9 @@ FitReport report_of_dissipating(std::vector<Member> members, const std::vector<R
       if (cycles[k].share() < kWatched) is_paid[k] = true;
       if (is_paid[k]) paid.push_back(sines[k]);
     }
-    const ActivityPrice price(paid, kWeights[step]);
+    const ActivityPenalty penalty(paid, kWeights[step]);
     parallel_for(members.size(), options.threads,
-                 [&](std::size_t k) { train_on(members[k], price); });
+                 [&](std::size_t k) { train_on(members[k], penalty); });
     FitReport paying = report_of();
     cycles = settled_cycles(*paying.model, sines, options.threads);
     if (std::ranges::any_of(cycles, is_active)) {

@@ -27,7 +27,7 @@ constexpr std::array kRidges{0.003, 0.01, 0.03};
 // The ridge of gates with geometry in them is greater by one of these factors.
 constexpr std::array kGeometryFactors{3.0, 10.0, 30.0};
 constexpr std::size_t kLateStarts = 6;
-constexpr double kLateShare = 1;     // of what runs from rest amid the motion count, beside 1
+constexpr double kLateShare = 1;     // of runs that begin while the piston moves, beside 1
 constexpr double kBaseRidge = 1e-4;  // the ridge of every weight
 
 /// Sums over one record's samples: F'F, t'F and t't, terms standardised.
@@ -111,8 +111,8 @@ void add_run(const FamilyGates& gates, const FamilyRecord& record, std::size_t s
   }
 }
 
-/// A run from the record's start, and some from rest amid the motion, over two strokes from the
-/// first scored sample on: what moved before is not always known.
+/// A run from the record's start, and some that begin while the piston moves, over two strokes
+/// from the first scored sample on: what moved before is not always known.
 void add_runs(const FamilyGates& gates, const FamilyRecord& record, RecordSums& sums) {
   add_run(gates, record, 0, 1, sums);
   const double until =

@@ -102,11 +102,11 @@ class HysteresisNetworkFit {
   }
 
   /// Trains a member on while it pays for energy that it feeds in.
-  void train_on(Member& member, const ActivityPrice& price) const {
+  void train_on(Member& member, const ActivityPenalty& penalty) const {
     HysteresisNetworkTrainOptions options =
         train_options(all_, kBankSamples, {decay_, std::min(kBankPaidIterations, iterations_)});
     options.rate_decay = kPaidRateDecay;
-    options.price = &price;
+    options.penalty = &penalty;
     member.report = train(member.network, all_, options);
   }
 
@@ -172,7 +172,7 @@ FitReport fit_hysteresis_network(const HysteresisNetworkPreset& preset,
         return std::make_shared<HysteresisNetworkModel>(std::string(preset.name),
                                                         std::move(networks));
       },
-      [&](Member& member, const ActivityPrice& price) { fit.train_on(member, price); });
+      [&](Member& member, const ActivityPenalty& penalty) { fit.train_on(member, penalty); });
 }
 
 }  // namespace dashpot

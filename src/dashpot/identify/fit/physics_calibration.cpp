@@ -239,11 +239,14 @@ void add_numbers(const CalibrationProblem& problem, const LeastSquaresReport& so
 /// By how much the yield stress of each level alone would have to move, to first order.
 void add_levels(const CalibrationProblem& problem, const DamperDescription& drawing,
                 std::span<const double> x, PhysicsCalibration& out) {
+  // The residuals where the fit ended, and a small step of all yield stresses on.
   constexpr double kStep = 1e-4;
   std::vector<double> r(problem.samples()), moved(problem.samples()), at(x.begin(), x.end());
   problem.residuals(at, r);
   at[kYieldScale] += kStep;
   problem.residuals(at, moved);
+
+  // Each level's own least-squares step from there.
   std::map<double, std::pair<double, double>> sums;  // of slope x residual, slope squared
   for (std::size_t n = 0; n < problem.records().size(); ++n) {
     const auto& level = problem.records()[n].level;
@@ -255,6 +258,7 @@ void add_levels(const CalibrationProblem& problem, const DamperDescription& draw
       square += slope * slope;
     }
   }
+
   for (const auto& [level, sum] : sums) {
     if (!(sum.second > 0)) continue;
     const FluidState state = fluid_state(drawing, level);

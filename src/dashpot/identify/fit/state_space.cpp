@@ -126,10 +126,10 @@ class StateSpaceFit {
   }
 
   /// Trains a member on while it pays for energy that it feeds in.
-  void train_on(Member& member, const ActivityPrice& price) const {
+  void train_on(Member& member, const ActivityPenalty& penalty) const {
     StateSpaceTrainOptions options = finish(decay_, kStateSpacePaidIterations);
     options.rate_decay = kPaidRateDecay;
-    options.price = &price;
+    options.penalty = &penalty;
     member.report = train(member.network, all_, options);
   }
 
@@ -202,7 +202,7 @@ FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Reco
         for (const Member& member : members) networks.push_back(member.network);
         return std::make_shared<StateSpaceModel>(std::string(preset.name), std::move(networks));
       },
-      [&](Member& member, const ActivityPrice& price) { fit.train_on(member, price); });
+      [&](Member& member, const ActivityPenalty& penalty) { fit.train_on(member, penalty); });
 }
 
 }  // namespace dashpot

@@ -165,6 +165,7 @@ const std::string& failure_in(const Value& row) {
 
 /// What is kept of a pilot damper: its models, parameters and errors, and its levels and speeds.
 void tell_pilot(const FittedDamper& damper, Value& row) {
+  // Each fit as a model file, with the parameters that were fitted.
   Value fits = Value::array(), levels = Value::array();
   for (std::size_t m = 0; m < damper.fits.size(); ++m) {
     const FitReport& fit = damper.fits[m];
@@ -179,12 +180,15 @@ void tell_pilot(const FittedDamper& damper, Value& row) {
                                   {"parameters", std::move(parameters)},
                                   {"error", any_number(damper.errors[m])}}));
   }
+
+  // The speeds at which its forces were measured, level by level.
   for (const LevelFigures& level : damper.sheet.levels) {
     if (!level.drive) continue;
     std::vector<double> speeds;
     for (const SpeedFigures& figures : level.speeds) speeds.push_back(figures.speed);
     levels.push_back(Value::object({{"drive", *level.drive}, {"speeds", Value::array(speeds)}}));
   }
+
   row.add("drive_unit", to_string(damper.drive_unit));
   row.add("fits", std::move(fits));
   row.add("levels", std::move(levels));
@@ -391,10 +395,14 @@ class ManyRun {
       std::vector<std::size_t> dampers;
       for (std::size_t k = first; k < std::min(first + wanted, folders_.names.size()); ++k)
         dampers.push_back(k);
+
+      // The next so many dampers, in this process or in others.
       farm_out(dampers, options_.fit.threads, store_, names_, [&](std::size_t damper) {
         options_.fit.monitor.report("pilot: " + folders_.names[damper], 0);
         make_pilot(damper);
       });
+
+      // What came of them, in their order, whoever made it.
       for (const std::size_t damper : dampers) {
         std::optional<Value> row = kept_row(store_, pilot_key(damper), "");
         if (!row) throw Error(folders_.names[damper], "its pilot row is missing from the store");

@@ -140,8 +140,10 @@ TdmsScale TdmsScale::of(const std::vector<const TdmsProperties*>& sets, const st
 }
 
 double TdmsScale::operator()(double raw) const {
+  // Each step reads the raw value or the outcome of an earlier step.
   std::array<double, kMostSteps> values;
   const auto value_of = [&](std::size_t step) { return step == kRawInput ? raw : values[step]; };
+
   for (std::size_t k = 0; k < steps_.size(); ++k) {
     const Step& step = steps_[k];
     const double x = value_of(step.input);
@@ -165,6 +167,8 @@ double TdmsScale::operator()(double raw) const {
         break;
     }
   }
+
+  // The last step's outcome is the channel's value.
   return steps_.empty() ? raw : values[steps_.size() - 1];
 }
 

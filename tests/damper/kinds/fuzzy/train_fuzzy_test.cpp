@@ -84,7 +84,7 @@ TEST_CASE("no consequents are better than those of the least squares") {
   TrainingSamples samples = samples_of(moved(), 700);
   Sugeno model = start();
   train(model, samples, options);
-  // train() moves the mean offset into the constants, which the ridge prices: no offset here.
+  // train() moves the mean offset into the constants, which the ridge penalties: no offset here.
   samples.group.assign(samples.group.size(), 0);
   samples.groups = 1;
   FuzzyTrainOptions stiff = options;
@@ -116,7 +116,7 @@ TEST_CASE("the gradient of the reduced cost is that of its differences") {
         if (k % 3 == 0) m.centre += move;
         if (k % 3 == 1) m.width *= std::exp(move);
         if (k % 3 == 2) m.slope *= std::exp(move);
-        return reduced_cost(other, samples, options).cost;  // the price of moves starts anew: 0
+        return reduced_cost(other, samples, options).cost;  // the penalty of moves starts anew: 0
       };
       CAPTURE(k);
       CHECK_CLOSE(2 * reduced.gradient[k], (cost(h) - cost(-h)) / (2 * h), 1e-4, 1e-7);

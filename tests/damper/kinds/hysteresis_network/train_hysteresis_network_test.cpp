@@ -23,7 +23,7 @@ void check_gradient(const HysteresisNetworkTrainOptions& options, double toleran
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
   const HysteresisNetwork model = start();
   const FreeRunCost at = hysteresis_network_cost(model, all_of(records), options);
-  // Moves of rates are measured from the model that a training starts from, so their price has no
+  // Moves of rates are measured from the model that a training starts from, so their penalty has no
   // slope here.
   const auto slope = [&](auto move) {
     HysteresisNetwork above = model, below = model;
@@ -57,13 +57,13 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
   check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
 }
 
-TEST_CASE("the gradient is that of the cost with the price of energy that is fed in") {
+TEST_CASE("the gradient is that of the cost with the penalty of energy that is fed in") {
   std::vector<ProbeSine> sines;  // every 13th of a verdict's, quick and slow, small and beyond
   const auto all = probe_sines({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, false, true);
   for (std::size_t k = 0; k < all.size(); k += 13) sines.push_back(all[k]);
-  const ActivityPrice price(sines, 0.5);
+  const ActivityPenalty penalty(sines, 0.5);
   const HysteresisNetworkTrainOptions free{.weight_decay = 0.01},
-      paid{.weight_decay = 0.01, .price = &price};
+      paid{.weight_decay = 0.01, .penalty = &penalty};
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
   CHECK(hysteresis_network_cost(start(), all_of(records), paid).cost >
         1.1 * hysteresis_network_cost(start(), all_of(records), free).cost);

@@ -53,15 +53,15 @@ TEST_CASE("the gradient is that of the cost over windows, encoder included") {
   check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .window = 30});
 }
 
-TEST_CASE("the gradient is that of the cost with the price of energy that is fed in") {
+TEST_CASE("the gradient is that of the cost with the penalty of energy that is fed in") {
   std::vector<ProbeSine> sines;  // every 13th of a verdict's, quick and slow, small and beyond
   const auto all = probe_sines({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, false, true);
   for (std::size_t k = 0; k < all.size(); k += 13) sines.push_back(all[k]);
-  const ActivityPrice price(sines, 0.5);
+  const ActivityPenalty penalty(sines, 0.5);
   const std::vector<FreeRunRecord> records = measured(90);
-  CHECK(state_space_cost(example_state_space(4), all_of(records), {.price = &price}).cost >
+  CHECK(state_space_cost(example_state_space(4), all_of(records), {.penalty = &penalty}).cost >
         1.1 * state_space_cost(example_state_space(4), all_of(records), {}).cost);
-  check_gradient({.weight_decay = 0.01, .price = &price}, 1e-4);  // shares have kinks
+  check_gradient({.weight_decay = 0.01, .penalty = &penalty}, 1e-4);  // shares have kinks
 }
 
 TEST_CASE("windows, then whole records: a state space predicts motions it has not seen") {

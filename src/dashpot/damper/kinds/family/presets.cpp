@@ -36,7 +36,8 @@ std::array<FamilyPreset, 6> make_presets() {
            "does and one on the rest, are those that predict designs left out of the training "
            "best; the remaining error there is the spread of builds, kept in the model. The field "
            "enters by the current and the fluid's viscosity, not by the yield stress. Fitted also "
-           "to runs from rest amid the motion, since the motion before a record is not always "
+           "to runs from rest in the middle of the motion, since the motion before a record is not "
+           "always "
            "known.",
        .form = FamilyForm::Gates,
        .path_states = 5,

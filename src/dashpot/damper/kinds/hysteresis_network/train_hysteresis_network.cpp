@@ -80,10 +80,10 @@ void linearise(const HysteresisNetwork& model, const std::vector<const FreeRunRe
 
 /// Adds what the model pays for the energy that it feeds into motions, its signals held within the
 /// ranges that it starts with.
-void add_prices(const HysteresisNetwork& model, const ActivityPrice& price, RowSink& sink) {
+void add_penalties(const HysteresisNetwork& model, const ActivityPenalty& penalty, RowSink& sink) {
   std::array<double, GatedNetwork::kMaxSignals> z, held;
   std::vector<double> row(model.parameter_count() + 1);
-  price.add(
+  penalty.add(
       model.parameter_count(), sink,
       [&](const FreeRunRecord& record, auto use) {
         run_bank(model.bank, record, 1, false,
@@ -138,7 +138,7 @@ FreeRunSearchResult run_search(HysteresisNetwork model,
   problem.linearise = [&](const std::vector<double>& x, RowSink& sink) {
     set_unknowns(model, x);
     linearise(model, records, options.stride, sink);
-    if (options.price) add_prices(model, *options.price, sink);
+    if (options.penalty) add_penalties(model, *options.penalty, sink);
   };
   return search(problem, {.max_iterations = max_iterations,
                           .tolerance = options.tolerance,

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
-#include "dashpot/damper/nets/activity_price.h"
+#include "dashpot/damper/nets/activity_penalty.h"
 #include "dashpot/damper/nets/free_run_record.h"
 
 namespace dashpot {
@@ -18,7 +18,7 @@ struct HysteresisNetworkTrainOptions {
   double offset_decay = 1e-3;  ///< as TrainOptions::offset_decay
   bool offsets = true;         ///< one free offset per record, a declared nuisance
   std::size_t stride = 1;      ///< score every stride-th sample; the states see all
-  const ActivityPrice* price = nullptr;  ///< of energy fed into motions; none: nothing is paid
+  const ActivityPenalty* penalty = nullptr;  ///< of energy fed into motions; none: nothing is paid
   std::function<void(double cost)> on_iteration;  ///< may throw to stop
 };
 

@@ -343,6 +343,7 @@ void LawProgram::work(const Operation* at, const Operation* end, double* r) {
     const auto a = [&] { return r[at->a]; };
     const auto b = [&] { return r[at->b]; };
     switch (at->op) {
+      // Arithmetic, of two registers or of the outcome before and one.
       case LawOp::Negate:
         it = -a();
         break;
@@ -391,6 +392,8 @@ void LawProgram::work(const Operation* at, const Operation* end, double* r) {
       case LawOp::PowerOfIt:
         it = law_power(it, b());
         break;
+
+      // Functions of the equations' language.
       case LawOp::Abs:
         it = fabs(a());
         break;
@@ -433,6 +436,8 @@ void LawProgram::work(const Operation* at, const Operation* end, double* r) {
       case LawOp::Max:
         it = fmax(a(), b());
         break;
+
+      // Conditions hold where they are not 0.
       case LawOp::Less:
         it = a() < b() ? 1 : 0;
         break;
@@ -451,6 +456,8 @@ void LawProgram::work(const Operation* at, const Operation* end, double* r) {
       case LawOp::Where:
         it = a() != 0 ? b() : r[at->c];
         break;
+
+      // The way through the list; a jump leaves no outcome.
       case LawOp::Move:
         it = a();
         break;
@@ -460,13 +467,15 @@ void LawProgram::work(const Operation* at, const Operation* end, double* r) {
       case LawOp::JumpUnless:
         if (a() == 0) at += at->b - 1;
         continue;
+
+      // Numbers, parameters, states and inputs stand in registers before the work begins.
       case LawOp::Number:
       case LawOp::Parameter:
       case LawOp::State:
       case LawOp::Displacement:
       case LawOp::Velocity:
       case LawOp::Travel:
-        continue;  // they stand in registers
+        continue;
     }
     r[at->to] = it;
   }

@@ -23,12 +23,15 @@ inline double tanh(double x) { return branchless_tanh(x); }
 PassiveCell cell_of(const PassiveNetwork& n) noexcept {
   const PassiveLayout at(n.sizes);
   const double* numbers = n.numbers.data();
-  return {.springs = static_cast<int>(n.sizes.springs),
+  return {// Its build.
+          .springs = static_cast<int>(n.sizes.springs),
           .memories = static_cast<int>(n.sizes.memories),
           .neurons = static_cast<int>(n.sizes.neurons),
           .viscous_neurons = static_cast<int>(n.sizes.viscous_neurons),
           .lags = n.lags ? 1 : 0,
           .inert = n.inert ? 1 : 0,
+
+          // The scales of its signals, and the range of its data.
           .displacement_mean = n.displacement_mean,
           .displacement_gain = n.reads_displacement() ? 1 / n.displacement_scale : 0,
           .displacement_low = n.displacement_low,
@@ -40,6 +43,8 @@ PassiveCell cell_of(const PassiveNetwork& n) noexcept {
           .drive_low = n.drive_low,
           .drive_high = n.drive_high,
           .force_scale = n.force_scale,
+
+          // The numbers that training finds.
           .drive_rate = numbers[at.drive_rate],
           .saturation = numbers[at.saturation],
           .inertia = numbers[at.inertia],

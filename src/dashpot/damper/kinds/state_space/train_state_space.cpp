@@ -195,12 +195,12 @@ void linearise(const StateSpaceNetwork& model, const double* encoder, std::size_
 
 /// Adds what the model pays for the energy that it feeds into motions, each from rest, its signals
 /// held within the ranges that it starts with.
-void add_prices(const StateSpaceNetwork& model, std::size_t encoder_weights,
-                const ActivityPrice& price, RowSink& sink) {
+void add_penalties(const StateSpaceNetwork& model, std::size_t encoder_weights,
+                   const ActivityPenalty& penalty, RowSink& sink) {
   std::array<double, GatedNetwork::kMaxSignals> z, held;
   const std::size_t unknowns = model.parameter_count() + encoder_weights;
   std::vector<double> row(unknowns + 1);
-  price.add(
+  penalty.add(
       unknowns, sink,
       [&](const FreeRunRecord& record, auto use) {
         run_cell(model.cell, nullptr, whole(record), 1, nullptr,
@@ -283,9 +283,9 @@ FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
     set_unknowns(model, x);
     linearise(model, x.data() + model.cell.parameter_count(), encoder_weights, windows,
               options.stride, sink);
-    if (!options.price) return;
+    if (!options.penalty) return;
     set_unknowns(holding, x);
-    add_prices(holding, encoder_weights, *options.price, sink);
+    add_penalties(holding, encoder_weights, *options.penalty, sink);
   };
   return search(problem, {.max_iterations = max_iterations,
                           .tolerance = options.tolerance,

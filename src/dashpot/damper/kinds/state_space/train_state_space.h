@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
-#include "dashpot/damper/nets/activity_price.h"
+#include "dashpot/damper/nets/activity_penalty.h"
 #include "dashpot/damper/nets/free_run_record.h"
 
 namespace dashpot {
@@ -21,8 +21,8 @@ struct StateSpaceTrainOptions {
   /// is learnt along and then dropped: tanh (paths) or a straight line (lags) of the currents and
   /// of velocity and force at a few past moments.
   std::size_t window = 0;
-  std::size_t most_steps = 12000;        ///< of all windows: every k-th is taken
-  const ActivityPrice* price = nullptr;  ///< as HysteresisNetworkTrainOptions::price
+  std::size_t most_steps = 12000;            ///< of all windows: every k-th is taken
+  const ActivityPenalty* penalty = nullptr;  ///< as HysteresisNetworkTrainOptions::penalty
   std::function<void(double cost)> on_iteration;
 };
 

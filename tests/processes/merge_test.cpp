@@ -2,10 +2,10 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "cli/program.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/store.h"
 #include "dashpot/base/text.h"
-#include "program.h"
 
 using namespace dashpot;
 namespace fs = std::filesystem;

@@ -12,18 +12,18 @@ namespace dashpot {
 /// What a training pays for energy that its model feeds into motions: for each of some sines,
 /// (weight (margin - share))^2 where the share of energy that a cycle takes out is below a small
 /// margin, else nothing. For models that do not read the displacement.
-class ActivityPrice {
+class ActivityPenalty {
  public:
-  ActivityPrice(std::span<const ProbeSine> sines, double weight) : weight_(weight) {
+  ActivityPenalty(std::span<const ProbeSine> sines, double weight) : weight_(weight) {
     for (const ProbeSine& sine : sines) probes_.emplace_back(sine);
   }
 
-  /// Adds the prices of a model with so many unknowns. run(record, use) runs it through a record
+  /// Adds the penalties of a model with so many unknowns. run(record, use) runs it through a record
   /// and calls use(force) at each scored sample; differentiate(record, use) calls use(row) with the
   /// force's derivatives by the unknowns. Any unit of force.
   template <class Run, class Differentiate>
   void add(std::size_t unknowns, RowSink& sink, Run run, Differentiate differentiate) const {
-    std::vector<double> force, price(unknowns + 1);
+    std::vector<double> force, penalty(unknowns + 1);
     for (const Probe& probe : probes_) {
       force.clear();
       run(probe.record, [&](double value) { force.push_back(value); });
@@ -31,15 +31,15 @@ class ActivityPrice {
       const double lacking = kMargin - cycle.share();
       if (!(lacking > 0) || !(cycle.passed > 0)) continue;
 
-      std::ranges::fill(price, 0.0);
+      std::ranges::fill(penalty, 0.0);
       const std::vector<double> slopes = share_slopes(probe.cycle, force, cycle);
       auto slope = slopes.begin();
       differentiate(probe.record, [&](const double* row) {
         const double factor = -weight_ * *slope++;
-        for (std::size_t k = 0; k < unknowns; ++k) price[k] += factor * row[k];
+        for (std::size_t k = 0; k < unknowns; ++k) penalty[k] += factor * row[k];
       });
-      price.back() = weight_ * lacking;
-      sink.add_price(price);
+      penalty.back() = weight_ * lacking;
+      sink.add_penalty(penalty);
     }
   }
 

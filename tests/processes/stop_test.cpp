@@ -1,8 +1,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "cli/program.h"
 #include "dashpot/base/file.h"
-#include "program.h"
 
 using namespace dashpot;
 namespace fs = std::filesystem;

@@ -5,11 +5,11 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include "cli/program.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/value.h"
-#include "program.h"
 
 using namespace dashpot;
 namespace fs = std::filesystem;

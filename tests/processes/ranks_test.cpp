@@ -1,7 +1,7 @@
 #include <filesystem>
 
+#include "cli/program.h"
 #include "dashpot/base/file.h"
-#include "program.h"
 
 using namespace dashpot;
 namespace fs = std::filesystem;
