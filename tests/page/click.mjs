@@ -161,6 +161,19 @@ async function sliders({page, done}) {
   await done();
 }
 
+// Over a record, whose motion the sliders take; without it they stand in the middle of the data.
+async function over({page, done}) {
+  const legend = plot(page, "Force over velocity").locator(".legend"), handle = (name) => page.getByRole("slider", {name, exact: true});
+  assert.match(await legend.textContent(), /measured.*as set/);
+  for (const [name, value] of [["Current", "1 A"], ["Amplitude", "10 mm"], ["Frequency", "2 Hz"]]) assert.equal(await handle(name).getAttribute("aria-valuetext"), value);
+  await handle("alpha_a").press("PageUp");
+  await page.waitForFunction(() => /measured.*as identified.*as set/.test(document.querySelector("#sliders .legend").textContent));
+  await page.selectOption("#moved-over", "");
+  await page.waitForFunction(() => !/measured/.test(document.querySelector("#sliders .legend").textContent));
+  assert.notEqual(await handle("Frequency").getAttribute("aria-valuetext"), "2 Hz");
+  await done();
+}
+
 try {
   const report = await open("report.html");
   for (const step of [ranking, choosing, zooming, theme]) await step(report.page);
@@ -173,6 +186,7 @@ try {
   await (await open("search.html", {width: 390})).done();
 
   await sliders(await open("sliders.html"));
+  await over(await open("over.html"));
   for (const options of [{scheme: "dark"}, {width: 1056}, {width: 390}]) await (await open("sliders.html", options)).done();
 
   const inspect = await open("inspect.html");

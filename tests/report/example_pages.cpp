@@ -1,5 +1,6 @@
 // Writes the example report and the example inspection into a folder, for the test that clicks
 // through them.
+#include <cmath>
 #include <filesystem>
 
 #include "dashpot/base/file.h"
@@ -11,14 +12,32 @@
 
 namespace {
 
-/// A law and a network that run in their page.
-dashpot::Document sliders_document() {
+/// A law and a network that run in their page; with `records`, over one of 10 mm at 2 Hz and 1 A.
+dashpot::Document sliders_document(bool records = false) {
   dashpot::DocumentSliders sliders;
   const auto add = [&](const dashpot::DamperModel& model) {
     sliders.models.push_back({model.name(), dashpot::js_program(exported(model), {})});
   };
   add(example_law(dashpot::find_law("bouc_wen")));
   add(dashpot::NetworkModel("mlp_one_sensor", {"velocity", "current"}, {example_mlp(1)}));
+  std::vector<dashpot::SharedSamples> samples;
+  if (records) {
+    constexpr double kAmplitude = 0.01, kRate = 12.566370614359172;  // m, rad/s
+    dashpot::SharedSamples displacement, velocity, force;
+    for (int k = 0; k <= 200; ++k) {
+      displacement.values.push_back(kAmplitude * std::sin(kRate * k / 400));
+      velocity.values.push_back(kAmplitude * kRate * std::cos(kRate * k / 400));
+      force.values.push_back(800 * std::tanh(30 * velocity.values.back()));
+    }
+    samples = {displacement, velocity, force};
+    sliders.loops.push_back({.name = "a record",
+                             .drive = 1,
+                             .conditions = {},
+                             .displacement = 0,
+                             .velocity = 1,
+                             .force = 2,
+                             .first = 0});
+  }
   return {.title = "Sliders",
           .subtitle = {},
           .verdict = "Two models that run in their page.",
@@ -28,7 +47,8 @@ dashpot::Document sliders_document() {
                         .sliders = std::move(sliders)}},
           .command = {},
           .version = "0.1.0",
-          .date = "2026-11-21"};
+          .date = "2026-11-21",
+          .samples = std::move(samples)};
 }
 
 }  // namespace
@@ -41,6 +61,7 @@ int main(int count, char** arguments) {
   dashpot::write_file(folder / "report.html",
                       dashpot::html_document(dashpot::ranking_document(example.input())));
   dashpot::write_file(folder / "sliders.html", dashpot::html_document(sliders_document()));
+  dashpot::write_file(folder / "over.html", dashpot::html_document(sliders_document(true)));
   const ExampleRanking crowded = crowded_ranking(30);
   dashpot::write_file(folder / "crowded.html",
                       dashpot::html_document(dashpot::ranking_document(crowded.input())));

@@ -1,5 +1,7 @@
 #include "dashpot/report/slider_section.h"
 
+#include <algorithm>
+
 #include "dashpot/error.h"
 #include "report/example_ranking.h"
 #include "support.h"
@@ -40,6 +42,19 @@ TEST_CASE(
   CHECK(contains(section->remarks[0], many.ranking.models[1].title + " (it has no C)"));
   CHECK(contains(section->remarks[0], "(too large; 'dashpot export MODEL --to js' writes it)"));
   CHECK(!slider_section(input_with_programs(many, 300'000)));
+
+  // Its records stand under the loops: each at constant drive, once, from the page's samples.
+  const Document document = ranking_document(input_with_programs(many, 1000));
+  const auto at =
+      std::ranges::find(document.sections, std::string("sliders"), &DocumentSection::name);
+  REQUIRE(at != document.sections.end());
+  const std::vector<DocumentSliders::Loop>& loops = at->sliders->loops;
+  CHECK(loops.size() == many.dataset.records.size());
+  for (const DocumentSliders::Loop& loop : loops)
+    for (const std::size_t place : {loop.displacement, loop.velocity, loop.force}) {
+      REQUIRE(place < document.samples.size());
+      CHECK(document.samples[place].values.size() > loop.first);
+    }
 
   // The page holds what the section does, once.
   const std::string page = html_document(ranking_document(input_with_programs(many, 1000)));

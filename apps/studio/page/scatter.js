@@ -15,7 +15,7 @@ function extent(values) {
 function places_of_words(points, px, py, width) {
   const taken = [];
   return points.map((p) => {
-    const reach = 6.2 * p.label.length, is_right = px(p.x) + 8 + reach > width && px(p.x) - 8 - reach > kEdge.left;
+    const reach = 6.2 * p.label.length, is_right = px(p.x) + 8 + reach > width && px(p.x) > width / 2;
     const x = px(p.x) + (is_right ? -8 : 8), from = is_right ? x - reach : x;
     const is_free = (y) => taken.every((t) => Math.abs(t.y - y) > 11 || t.from > from + reach || t.from + t.reach < from);
     const y = [-6, 12, -18, 24, -30, 36].map((shift) => py(p.y) + shift).find(is_free) ?? py(p.y) - 6;
@@ -52,7 +52,7 @@ export function Scatter({title, x_label, y_label, points, lines = [], chosen, on
     on_choose(order[Math.min(order.length - 1, Math.max(0, order.indexOf(chosen) + step))]);
   };
   const grid = resolved("--grid"), muted = resolved("--muted"), ink = resolved("--ink");
-  const xs = nice_ticks(x0, x1, Math.max(4, Math.min(6, width / 90))), ys = nice_ticks(y0, y1), x_texts = tick_text(xs), y_texts = tick_text(ys);
+  const xs = nice_ticks(x0, x1, Math.max(5, Math.min(6, width / 90))), ys = nice_ticks(y0, y1), x_texts = tick_text(xs), y_texts = tick_text(ys);
   const path = (line) => line.x.map((x, i) => `${i ? "L" : line.is_edge ? `M${px(x).toFixed(1)} ${kEdge.top}L` : "M"}${px(x).toFixed(1)} ${py(line.y[i]).toFixed(1)}`).join("");
   const shade = (line) => `${path(line)}V${height - kEdge.bottom}H${kEdge.left}V${kEdge.top}Z`, stroke = (of) => of === "ink" ? ink : colour(of);
   const swatch = (of) => of === "ink" ? "ink" : of === 0 ? 0 : (of - 1) % 6 + 1;

@@ -65,6 +65,8 @@ function Model({program, path, known, theme, on_fit}) {
   const reset = () => { set_setting(start); set_parameters(damper); set_resets((count) => count + 1); };
   useEffect(reset, [start, damper]);
 
+  // A member takes all of these but the yield stress, which follows from a drawing.
+  const changes = Object.entries(parameters).filter(([name, value]) => model.kind === "family" && name !== "yield_stress" && value !== own.find(({key}) => key === name).value);
   const loop = loop_of(program, setting, parameters), is_changed = Object.entries(parameters).some(([name, value]) => value !== damper[name]);
   const outside = beyond(model, setting, parameters);
   const bound = (list, values, set) => list.map((slider) => html`<${Slider} key=${slider.key} slider=${slider} value=${values[slider.key] ?? slider.value}
@@ -81,7 +83,9 @@ function Model({program, path, known, theme, on_fit}) {
     <div class="loops"><${Loops} loop=${loop} before=${is_changed ? loop_of(program, setting, damper) : undefined} record=${record} level=${model.interval?.level} resets=${resets} theme=${theme} />
       <p class="beyond" role="status">${outside.length > 0 && `Outside the data: ${outside.join("; ")}. What is drawn there is extrapolated.`}</p>
       <p class="note" aria-live="polite">${loop_words(loop)}</p></div>
-  </div>`;
+  </div>
+  ${changes.length > 0 && html`<h3 title="Its yield stress follows from a drawing: --damper">This damper as a model of its own</h3>
+    <${Command} words=${["member", `${known?.folder ?? "."}/${path}`, "--set", changes.map(([name, value]) => `${name}=${+value.toPrecision(6)}`).join(","), "-o", "member.json"]} />`}`;
 }
 
 export function Sliders({known, version, theme, fits, go, on_changed}) {
