@@ -20,10 +20,10 @@ namespace dashpot {
 constexpr double kPaidRateDecay = 1e3;
 
 /// The report on a fitted ensemble. One that feeds energy into motions is trained on from where it
-/// stands while it pays for that (ActivityPenalty), at a penalty that rises until the measured verdict
-/// holds; a note says what that costs. It pays for the sines of the verdict that took out little
-/// when they were last measured: the others cost nothing, and most do. Where no penalty is enough, or
-/// the user allows it, the ensemble stays as it fits best.
+/// stands while it pays for that (ActivityPenalty), at a penalty that rises until the measured
+/// verdict holds; a note says what that costs. It pays for the sines of the verdict that took out
+/// little when they were last measured: the others cost nothing, and most do. Where no penalty is
+/// enough, or the user allows it, the ensemble stays as it fits best.
 ///
 /// make_model(members) gives the ensemble's model; train_on(member, penalty) trains one member on
 /// and renews its `report`.
