@@ -157,11 +157,14 @@ std::string statement_of(const std::vector<BuiltDamper>& built, const std::strin
             std::to_string(damper.build) + ": strength " + format_number(damper.truth.strength) +
             ", friction " + format_number(damper.truth.friction) + " N, series spring " +
             format_number(damper.truth.stiffness) + " N/m\n";
+  const bool builds_repeat =
+      std::ranges::any_of(built, [](const BuiltDamper& damper) { return damper.build > 1; });
   return text + "name: virtual family\ncitation: " + yaml_string(built.front().campaign.citation) +
          "\ndrive: A\nleave_out: " + yaml_string(leave_out) +
          "\nnotes: simulated, not measured\nfiles:\n"
          "  - match: \"*.csv\"\n    damper: {manifest: damper}\n    level: {manifest: current_A}\n"
-         "    condition: \"{name}, build {build}, {motion}\"\n";
+         "    condition: \"{name}, build {build}, {motion}\"\n" +
+         (builds_repeat ? "    conditions: {specimen: {manifest: build}}\n" : "");
 }
 
 }  // namespace

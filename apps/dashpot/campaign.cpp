@@ -14,21 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SineMotion parse_motion(const std::string& text) {
-  const std::vector<std::string> parts = split(text, 'x');
-  const auto millimetres = parse_number(parts.front());
-  const auto hertz = parse_number(parts.back());
-  if (parts.size() != 2 || !millimetres || !hertz || !(*millimetres > 0) || !(*hertz > 0))
-    throw UsageError("--motions", "'" + text + "' is not an amplitude and a frequency",
-                     "write mm x Hz, as 25x0.5");
-  return {*millimetres / 1000, *hertz};
-}
-
-double parse_level(const std::string& text) {
-  if (const auto level = parse_number(text)) return *level;
-  throw UsageError("--levels", "'" + text + "' is not a number", "write them as 0,0.5,1");
-}
-
 std::vector<double> levels_over(double low, double high) {
   constexpr int kLevels = 5;
   std::vector<double> levels;
@@ -122,6 +107,21 @@ std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const Pa
 }
 
 }  // namespace
+
+SineMotion parse_motion(const std::string& text) {
+  const std::vector<std::string> parts = split(text, 'x');
+  const auto millimetres = parse_number(parts.front());
+  const auto hertz = parse_number(parts.back());
+  if (parts.size() != 2 || !millimetres || !hertz || !(*millimetres > 0) || !(*hertz > 0))
+    throw UsageError("--motions", "'" + text + "' is not an amplitude and a frequency",
+                     "write mm x Hz, as 25x0.5");
+  return {*millimetres / 1000, *hertz};
+}
+
+double parse_level(const std::string& text) {
+  if (const auto level = parse_number(text)) return *level;
+  throw UsageError("--levels", "'" + text + "' is not a number", "write them as 0,0.5,1");
+}
 
 std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchOptions options) {
   if (!settings.motion.empty()) return {sequence_test(settings.motion, options.seed, "--motion")};

@@ -36,6 +36,9 @@ std::filesystem::path write_campaign(const Dataset& campaign, const ParameterSet
 
 /// The motions asked for, which lack their drive: sines, or one sequence.
 std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchOptions options);
+/// One of --motions, "25x0.5", and one of --levels.
+SineMotion parse_motion(const std::string& text);
+double parse_level(const std::string& text);
 /// The levels asked for; none: none.
 std::vector<double> stated_levels(const CampaignSettings& settings);
 /// The name and the text of a record's CSV file, as a real bench would leave it.

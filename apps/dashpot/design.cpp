@@ -12,6 +12,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/design/design_law.h"
 #include "dashpot/report/design_report.h"
+#include "design_next.h"
 #include "document_text.h"
 #include "layout.h"
 #include "results.h"
@@ -27,30 +28,28 @@ struct DesignSettings {
   DesignOptions options;
   std::uint64_t points = DesignOptions().points;
   bool quantities = false, report = true, insist = false;
+  NextSettings next;
 };
 
 constexpr std::string_view kDesignExample =
     "# A front of dampers for a car: a large range of forces against little mass\n"
     "dashpot design passenger_car --output car\n"
     "\n"
-    "# Your own request, with a second model's figures beside:\n"
-    "dashpot design my_request.yaml --second physics:moving_wall\n"
-    "\n"
     "# Designs within a fitted family, with the figures of its model and of the physics:\n"
     "dashpot design family_prototype --model results/models/family_gated.json --second physics "
     "--outside-family refuse\n"
     "\n"
-    "# The quantities that constraints and goals may name:\n"
-    "dashpot design --quantities\n"
+    "# The next prototypes to build and record, that would tell a family most:\n"
+    "dashpot design my_request.yaml --next 4 --model results/models/family_physics.json\n"
     "\n"
     "# A design is a damper's description and a model:\n"
     "dashpot physics car/designs/design_001.yaml --current 2 --velocity 0.3\n"
     "dashpot track car/models/design_001.json";
 
-DesignRequest requested(const DesignSettings& settings) {
+DesignRequest requested(const DesignSettings& settings, Goals goals) {
   if (settings.request.empty())
     throw UsageError("REQUEST", "is missing: a file, or one of " + join(request_names(), ", "));
-  return is_path(settings.request) ? load_request(settings.request)
+  return is_path(settings.request) ? load_request(settings.request, goals)
                                    : named_request(settings.request);
 }
 
@@ -183,8 +182,12 @@ int run_design(DesignSettings settings, Console& console) {
     return kDone;
   }
 
+  if (settings.next.count > 0)
+    return run_next(settings.next, requested(settings, Goals::Optional), settings.options.model,
+                    settings.folder, settings.options.seed, settings.options.threads, console);
+
   // The words of the command line become options of the search.
-  const DesignRequest request = requested(settings);
+  const DesignRequest request = requested(settings, Goals::Required);
   settings.options.points = static_cast<std::size_t>(settings.points);
   settings.options.method = settings.method == "moead" ? FrontMethod::Moead : FrontMethod::Nsga2;
   settings.options.refuse_outside = settings.outside_family == "refuse";
@@ -219,7 +222,7 @@ int run_design(DesignSettings settings, Console& console) {
 }
 
 std::vector<Option> options_of(DesignSettings& settings) {
-  return {
+  std::vector<Option> options{
       // The request, and where its designs go.
       {.names = "REQUEST",
        .target = &settings.request,
@@ -236,7 +239,7 @@ std::vector<Option> options_of(DesignSettings& settings) {
       // The search for the front.
       {.names = "--points",
        .target = &settings.points,
-       .help = "designs on the front, where there are several goals",
+       .help = "designs on the front of several goals",
        .value = "N",
        .minimum = 4},
       {.names = "--generations",
@@ -246,8 +249,7 @@ std::vector<Option> options_of(DesignSettings& settings) {
        .minimum = 1},
       {.names = "--start-from",
        .target = &settings.start_from,
-       .help = "go on from the designs of an earlier run, the folder of its results, in place of "
-               "the best for each goal",
+       .help = "go on from the designs in an earlier run's folder",
        .value = "DIR",
        .takes = Takes::Folder,
        .default_text = "none"},
@@ -269,8 +271,8 @@ std::vector<Option> options_of(DesignSettings& settings) {
        .takes = Takes::File},
       {.names = "--second",
        .target = &settings.options.second,
-       .help = "a second model whose figures are shown beside the first's, with the difference; "
-               "constraints and goals can use it too",
+       .help = "a second model, whose figures stand beside the first's; constraints and goals can "
+               "use it too",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",
@@ -278,14 +280,13 @@ std::vector<Option> options_of(DesignSettings& settings) {
        .default_text = "none"},
       {.names = "--outside-family",
        .target = &settings.outside_family,
-       .help = "designs beyond the dampers that a family's model was fitted on: mark them, or "
-               "refuse them",
+       .help = "designs beyond the dampers that a family was fitted on",
        .value = "MODE",
        .choices = {"mark", "refuse"}},
       {.names = "--insist",
        .target = &settings.insist,
-       .help = fmt::format("keep designs at which a family's force lies {} times further from the "
-                           "plate flow's than at a damper of its fit; they are refused otherwise",
+       .help = fmt::format("keep designs whose force lies {} times further from the plate flow's "
+                           "than that of a family's damper",
                            kMostLeap)},
 
       // The run itself, and what it prints or leaves out.
@@ -293,10 +294,12 @@ std::vector<Option> options_of(DesignSettings& settings) {
       threads_option(settings.options.threads),
       {.names = "--quantities",
        .target = &settings.quantities,
-       .help = "list the quantities that constraints and goals may name"},
+       .help = "list what constraints and goals may name"},
       {.names = "--no-report",
        .target = &settings.report,
        .help = "write descriptions and models only"}};
+  for (Option& option : next_options(settings.next)) options.push_back(std::move(option));
+  return options;
 }
 
 }  // namespace
@@ -306,11 +309,10 @@ Command design_command() {
   return {.name = "design",
           .title = "Design dampers that meet a request",
           .description =
-              "Reads what may vary of a damper's description, what must hold and what to favour, "
-              "and finds designs: the best for one goal, or a front for several, also where made "
-              "dampers differ from their drawing. Each design is written as a description and as a "
-              "model for the other commands, after it was read again and checked. Where no design "
-              "is possible, it says which constraints conflict.",
+              "Finds dampers that meet a request: the best for one goal, or a front for several, "
+              "also where made dampers differ from their drawing. Each design is written as a "
+              "description and as a model for the other commands, after it was read again and "
+              "checked. Where none is possible, it says which constraints conflict.",
           .options = options_of(*settings),
           .example = std::string(kDesignExample),
           .run = [settings](Console& console) { return run_design(*settings, console); }};

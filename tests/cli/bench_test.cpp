@@ -166,6 +166,29 @@ TEST_CASE(
                   "/drawings/g14_l6.yaml -o " + (folder.path() / "m.json").string());
   CHECK_MESSAGE(member.exit_code == 0, member.output);
   CHECK(!contains(member.output, "extrapolates"));
+
+  // The next prototypes are drawings that 'physics' takes, with the manifest of their recordings.
+  const std::string next = (folder.path() / "next").string();
+  const std::string ask =
+      " " +
+      folder
+          .write("ask.yaml",
+                 "damper: drawings/g14_l6.yaml\n"
+                 "vary: {gap: {from: 1 mm, to: 2 mm}, pole_length: {from: 6 mm, to: 12 mm}}\n")
+          .string();
+  const ProgramResult chosen =
+      run_dashpot("design" + ask + " --next 2 --motions 10x1 --levels 0,1 --model " + ranked +
+                  "/models/family_physics.json -o " + next);
+  CHECK_MESSAGE(chosen.exit_code == 0, chosen.output);
+  CHECK(contains(chosen.output, "next_02"));
+  CHECK(contains(chosen.output, "by chance"));
+  CHECK(run_dashpot("physics " + next + "/drawings/next_02.yaml").exit_code == 0);
+  CHECK(contains(read_file(next + "/manifest.csv"), "next_02_01.csv,drawings/next_02.yaml"));
+  CHECK(run_dashpot("design" + ask + " --next 2").exit_code == 2);
+  const ProgramResult line = run_dashpot("design" + ask + " --next 2 --model " + ranked +
+                                         "/models/family_line.json -o " + next);
+  CHECK(line.exit_code == 1);
+  CHECK(contains(line.output, "does not know what its recordings have told"));
 }
 
 TEST_CASE("bench --family: what cannot be benched is refused") {

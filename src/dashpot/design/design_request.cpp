@@ -185,10 +185,11 @@ bool varies(const DesignRequest& request, const DescriptionField* field) {
                              [&](const DesignVariable& v) { return v.field == field; });
 }
 
-void require_consistent(const DesignRequest& request, const std::string& source) {
+void require_consistent(const DesignRequest& request, const std::string& source, Goals goals) {
   if (request.variables.empty())
     throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
-  if (request.goals.empty()) throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
+  if (goals == Goals::Required && request.goals.empty())
+    throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
   for (const DesignVariable& variable : request.variables)
     for (const std::shared_ptr<const Fluid>& fluid : variable.fluids)
       if (!fluid->law(request.damper.yield_law))
@@ -242,7 +243,7 @@ std::string describe(const DesignGoal& goal) {
 }
 
 DesignRequest parse_request(std::string_view text, const std::string& source,
-                            const std::filesystem::path& folder) {
+                            const std::filesystem::path& folder, Goals goals) {
   const Value document = parse_yaml(text, source);
   ObjectReader reader(document, "a design request");
 
@@ -282,12 +283,12 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
 
   // Unknown keys and contradictions are refused.
   reader.finish();
-  require_consistent(request, source);
+  require_consistent(request, source, goals);
   return request;
 }
 
-DesignRequest load_request(const std::filesystem::path& path) {
-  return parse_request(read_file(path), path.string(), path.parent_path());
+DesignRequest load_request(const std::filesystem::path& path, Goals goals) {
+  return parse_request(read_file(path), path.string(), path.parent_path(), goals);
 }
 
 DesignRequest named_request(const std::string& name) {

@@ -75,11 +75,15 @@ struct DesignRequest {
 std::string describe(const DesignConstraint& constraint);
 std::string describe(const DesignGoal& goal);
 
+/// Whether a request has to say what it is for: next_drawings() asks for no goal.
+enum class Goals { Required, Optional };
+
 /// YAML as docs/design.md describes. `folder`: where a damper's file is looked for. Throws Error
 /// that names file and line.
 DesignRequest parse_request(std::string_view text, const std::string& source,
-                            const std::filesystem::path& folder = {});
-DesignRequest load_request(const std::filesystem::path& path);
+                            const std::filesystem::path& folder = {},
+                            Goals goals = Goals::Required);
+DesignRequest load_request(const std::filesystem::path& path, Goals goals = Goals::Required);
 /// One that comes with Dashpot, in data/designs. Throws Error on a name that is not among
 /// request_names().
 DesignRequest named_request(const std::string& name);

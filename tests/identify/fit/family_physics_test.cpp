@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/identify.h"
@@ -56,4 +58,46 @@ TEST_CASE("a new piston area changes the force of a family of physics as plate f
   twice.bores = {2};
   twice.scatter = 0;
   CHECK(virtual_esr(*report.model, virtual_family(twice)) <= 3);
+}
+
+TEST_CASE("builds of one drawing tell their spread apart from what the family gets wrong") {
+  // Two builds of each of six drawings, 4 % of scatter in the whole force of each.
+  constexpr double kScatter = 0.04;
+  const VirtualFamily family = small_family();
+  Random random(11);
+  Dataset data;
+  for (const double gap : {1e-3, 1.4e-3})
+    for (const double length : {6e-3, 8e-3, 10e-3})
+      for (const double specimen : {1, 2}) {
+        const double build = 1 + kScatter * random.normal();
+        for (const double current : family.currents) {
+          data.records.push_back(
+              virtual_record(family, 1, gap, length, 0.09, current, 0, build, random));
+          data.records.back().conditions.emplace_back(kSpecimen, specimen);
+        }
+      }
+  const FitReport report = fit_virtual(data);
+  REQUIRE(report.model);
+  const auto parameter = [&](const FitReport& of, std::string_view name) {
+    const auto found = std::ranges::find(of.parameters, name, &FittedParameter::name);
+    return found == of.parameters.end() ? nullptr : &*found;
+  };
+  const auto* builds = parameter(report, "build_spread");
+  REQUIRE(builds);
+  CHECK(builds->low < kScatter);
+  CHECK(builds->high > kScatter);
+  REQUIRE(parameter(report, "drawing_spread"));
+  CHECK(parameter(report, "drawing_spread")->value < kScatter);
+
+  // Both stand in the model's file, and in the spread of a new damper.
+  const auto& model = dynamic_cast<const FamilyModel&>(*report.model);
+  const auto& read = family_model_from_json(model.to_json());
+  CHECK(read->family().build_spread == builds->value);
+  CHECK(read->family().drawing_spread == parameter(report, "drawing_spread")->value);
+
+  // Without the numbers of builds there is one spread, and it says so.
+  for (Record& record : data.records) record.conditions.pop_back();
+  const FitReport merged = fit_virtual(data);
+  CHECK(!parameter(merged, "drawing_spread"));
+  CHECK(contains(parameter(merged, "build_spread")->meaning, "no repeated build tells apart"));
 }

@@ -4,6 +4,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/family/physics_information.h"
 #include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
@@ -12,6 +13,7 @@
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"
 #include "dashpot/identify/fit/training_samples.h"
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
@@ -26,9 +28,10 @@ std::vector<FamilyRecord> family_records(const std::vector<Record>& training,
   std::vector<FamilyRecord> records;
   for (const Record& record : training) {
     require_member(record.conditions, record.name);
+    const double* specimen = find_condition(record.conditions, kSpecimen);
     records.push_back({with_conditions({}, record.conditions, record.name),
                        damper_inputs(record, drive_unit), record.time,
-                       record.channel("force").samples, record.warm_up});
+                       record.channel("force").samples, record.warm_up, specimen ? *specimen : 0});
   }
   return records;
 }
@@ -126,6 +129,7 @@ struct LearnedForce {
   std::shared_ptr<const FamilyForce> force;  ///< none where the training failed
   double build_spread = 0;
   double offset = 0;  ///< N, of every damper
+  double drawing_spread = 0;
 };
 
 /// The design with what it leaves open as the family's networks learn.
@@ -182,22 +186,41 @@ LearnedForce fit_physics(const std::vector<FamilyRecord>& records, const Identif
                          FitReport& report) {
   const FamilyPhysicsFit fit = fit_family_physics(records, options.threads, options.monitor);
 
-  // The numbers as they are, each with what it means; their intervals are not known.
+  // The numbers, each with what it means, and their intervals as builds and errors of drawings
+  // leave them; with one design, these are not known.
+  constexpr double kNormal95 = 1.96;
+  const std::vector<double>& information = fit.physics.information;
+  const std::vector<double> covariance =
+      information.empty() ? std::vector<double>() : inverse(information, kPhysicsUnknowns);
   for (std::size_t k = 0; k < kPhysicsNumbers; ++k) {
     const PhysicsNumber& number = FamilyPhysics::table()[k];
-    report.parameters.push_back({std::string(number.name), "1", std::string(number.meaning),
-                                 fit.physics.numbers[k], fit.physics.numbers[k],
-                                 fit.physics.numbers[k]});
+    const double value = fit.physics.numbers[k];
+    const double half =
+        covariance.empty() ? 0 : kNormal95 * std::sqrt(covariance[k * (kPhysicsUnknowns + 1)]);
+    report.parameters.push_back({std::string(number.name), "1", std::string(number.meaning), value,
+                                 std::max(number.low, value - half),
+                                 std::min(number.high, value + half)});
   }
+
+  // Where no build repeats, builds and the family's error are one, and named so.
+  const bool told_apart = fit.builds_repeat;
   report.parameters.push_back(
       {"build_spread", "1",
-       "standard deviation of a new damper's force from its design's, as a share",
-       fit.build_spread});
+       told_apart ? "standard deviation of the force of builds of one drawing, as a share"
+                  : "standard deviation of a new damper's force from its design's, as a share: of "
+                    "builds and of the family's error, which no repeated build tells apart",
+       fit.build_spread, fit.spread_low, fit.spread_high});
+  if (told_apart)
+    report.parameters.push_back(
+        {"drawing_spread", "1",
+         "standard deviation of what the family gets wrong of a drawing's force, as a share",
+         fit.drawing_spread, fit.drawing_spread, fit.drawing_spread});
   report.status = fit.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
   report.message = "geometry's ridges " + format_number(fit.all_ridge) + " and " +
                    format_number(fit.yield_ridge) + ", chosen by leaving designs out";
   report.iterations = fit.iterations;
-  return {std::make_shared<PhysicsFamily>(fit.physics), fit.build_spread, fit.offset};
+  return {std::make_shared<PhysicsFamily>(fit.physics), fit.build_spread, fit.offset,
+          fit.drawing_spread};
 }
 
 LearnedForce fit_force(const FamilyPreset& preset, const FamilyBaseline& baseline,
@@ -243,6 +266,7 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
   if (!learned.force) return report;
   family.force = learned.force;
   family.build_spread = learned.build_spread;
+  family.drawing_spread = learned.drawing_spread;
 
   // The model stands at the first record's damper, with the yield curve of its fluid.
   FamilyMember member = records.front().member;

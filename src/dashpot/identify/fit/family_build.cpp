@@ -65,11 +65,9 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
                 "a family_physics of two designs or more");
   const std::vector<FamilyRecord> records = records_of_build(member, recordings, drive_unit);
 
-  // What is expected of a build: the inverse covariance, of which no direction is known exactly.
-  constexpr double kLeast = 1e-6;
+  // What is expected of a build: the inverse covariance of its deviations.
   FamilyPhysics physics = force->physics();
-  std::vector<double> covariance(physics.covariance.begin(), physics.covariance.end());
-  for (std::size_t k = 0; k < kBuildNumbers; ++k) covariance[k * kBuildNumbers + k] += kLeast;
+  const std::vector<double> covariance = physics.deviation_covariance();
   const std::vector<double> precise = inverse(covariance, kBuildNumbers);
   BuildMatrix precision;
   std::ranges::copy(precise, precision.begin());
@@ -96,7 +94,8 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
     std::ranges::copy(x, built.deviation.begin());
     std::size_t at = 0;
     for (std::size_t n = 0; n < records.size(); ++n) {
-      const std::vector<double> modelled = run_family_physics(built, records[n]);
+      const std::vector<double> modelled =
+          run_family_physics(built, records[n].member, records[n].inputs, records[n].time);
       for (std::size_t k = records[n].first; k < modelled.size(); ++k)
         r[at++] = weight[n] * (modelled[k] + member.offset() - records[n].force[k]);
     }
@@ -133,6 +132,7 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
   auto family = std::make_shared<Family>(member.family());
   family->force = std::make_shared<PhysicsFamily>(physics);
   family->build_spread = std::sqrt(left.front());
+  family->drawing_spread = 0;
   report.model = std::make_shared<FamilyModel>(family, member.member(), member.offset());
   const auto esr = [&](const FamilyModel& model) {
     return evaluate(model, recordings, drive_unit, {.offset = OffsetMode::None}).pooled.esr;

@@ -219,9 +219,10 @@ class GateSums {
   }
 
   void number_designs(const std::vector<FamilyRecord>& records) {
-    // Number geometries and fluids as they come; a damper is a pair of both.
+    // Number geometries, fluids and builds as they come; a damper is one of each.
     std::map<std::array<double, 4>, std::size_t> geometries;
-    std::map<double, std::size_t> fluids;
+    std::map<double, std::size_t> fluids, builds;
+    std::vector<std::size_t> of_fluid;
     for (std::size_t k = 0; k < records.size(); ++k) {
       const FamilyMember& m = records[k].member;
       const std::size_t geometry =
@@ -229,14 +230,17 @@ class GateSums {
               .try_emplace({m.piston_area, m.gap_area, m.gap, m.pole_length}, geometries.size())
               .first->second;
       const std::size_t fluid = fluids.try_emplace(m.viscosity, fluids.size()).first->second;
-      sums_[k].damper = geometry * records.size() + fluid;
+      const std::size_t build =
+          builds.try_emplace(records[k].specimen, builds.size()).first->second;
+      sums_[k].damper = (geometry * records.size() + fluid) * records.size() + build;
       sums_[k].design = geometry;
+      of_fluid.push_back(fluid);
     }
 
     // With one geometry only, each fluid is a design.
     designs_ = geometries.size();
     if (designs_ > 1) return;
-    for (RecordSums& r : sums_) r.design = r.damper;
+    for (std::size_t k = 0; k < sums_.size(); ++k) sums_[k].design = of_fluid[k];
     designs_ = fluids.size();
   }
 

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/damper/kinds/family/physics_information.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/least_squares.h"
 #include "dashpot/numerics/linear_algebra.h"
 
@@ -205,7 +207,8 @@ class PhysicsProblem {
     const FamilyPhysics physics = physics_of(x);
     parallel_for(records_.size(), threads_, [&](std::size_t k) {
       const double build = std::exp(x[kOffset + 1 + groups_.damper[k]]);
-      const std::vector<double> force = run_family_physics(physics, records_[k]);
+      const std::vector<double> force =
+          run_family_physics(physics, records_[k].member, records_[k].inputs, records_[k].time);
       for (std::size_t s = 0; s < first_[k + 1] - first_[k]; ++s)
         out[first_[k] + s] = build * force[records_[k].first + s];
     });
@@ -286,6 +289,7 @@ class LeftOutDesigns {
   }
 
   std::size_t designs() const { return designs_.size(); }
+  const FamilyGroups& groups() const { return problem_.groups(); }
 
   /// The step of all unknowns where this design is left out; empty where it is not determined.
   std::vector<double> step_without(std::size_t design, const Ridges& ridges) const {
@@ -315,6 +319,38 @@ class LeftOutDesigns {
     return sum;
   }
 
+  /// What all dampers tell of the numbers and the offset, each with its deviations eliminated, and
+  /// the ridges: see FamilyPhysics::information.
+  std::vector<double> information(const Ridges& ridges, const FamilyPhysics& physics) const {
+    const std::size_t n = problem_.unknowns();
+    const auto records = static_cast<double>(problem_.groups().damper.size());
+    std::vector<double> all(kPhysicsUnknowns * kPhysicsUnknowns);
+    for (std::size_t d = 0; d < dampers_.size(); ++d) {
+      // The damper's normal equations in the unknowns of all and its deviations. A record's squares
+      // are shares of one over the number of records.
+      std::vector<double> select(n * kTestRows);
+      const std::vector<double> deviations = deviation_columns(d);
+      for (std::size_t u = 0; u < n; ++u) {
+        if (u < kPhysicsUnknowns) select[u * kTestRows + u] = 1;
+        for (std::size_t k = 0; k < kCount; ++k)
+          select[u * kTestRows + kPhysicsUnknowns + k] = deviations[u * kCount + k];
+      }
+      const std::vector<double> across = product(dampers_[d].matrix, select, n);
+      std::vector<double> tests(kTestRows * kTestRows);
+      for (std::size_t u = 0; u < n; ++u)
+        for (std::size_t i = 0; i < kTestRows; ++i)
+          for (std::size_t j = 0; j < kTestRows; ++j)
+            tests[i * kTestRows + j] +=
+                records * select[u * kTestRows + i] * across[u * kTestRows + j];
+      const std::vector<double> told = damper_information(physics, tests);
+      for (std::size_t k = 0; k < all.size(); ++k) all[k] += told[k];
+    }
+    for (std::size_t k = 0; k < kPhysicsUnknowns; ++k)
+      all[k * kPhysicsUnknowns + k] +=
+          records * problem_.belief(k, ridges) / (physics.record_error * physics.record_error);
+    return all;
+  }
+
   /// Deviations that bring each damper, predicted without its design, nearest to its records, in
   /// the order of FamilyPhysics::Deviation; and what they leave of its weighted squares.
   struct Deviated {
@@ -322,7 +358,6 @@ class LeftOutDesigns {
     double squares_left = 0;  // of all dampers
   };
   Deviated deviations(const Ridges& ridges) const {
-    constexpr std::size_t kCount = FamilyPhysics::kDeviations;
     constexpr double kBelief = 1e-5;  // where a damper's records do not tell one
     const std::size_t n = problem_.unknowns();
     Deviated found;
@@ -332,14 +367,7 @@ class LeftOutDesigns {
       if (step.empty()) return {};
       const std::vector<double> moved = product(dampers_[d].matrix, step, n);
 
-      // Each deviation is the column of the unknown that does the same to this damper. The springs
-      // stand in two numbers: that before the flow, and the seal's give, which goes the other way.
-      std::vector<double> select(n * kCount);
-      select[(PhysicsProblem::kOffset + 1 + d) * kCount + 0] = 1;
-      select[kYieldShare * kCount + 1] = select[kViscousShare * kCount + 1] = 1;
-      select[kStiffness * kCount + 2] = 1;
-      select[kSealGive * kCount + 2] = -1;
-      select[PhysicsProblem::kOffset * kCount + 3] = 1;
+      const std::vector<double> select = deviation_columns(d);
       const std::vector<double> across = product(dampers_[d].matrix, select, n);
       std::vector<double> square(kCount * kCount), right(kCount);
       for (std::size_t i = 0; i < kCount; ++i)
@@ -377,6 +405,20 @@ class LeftOutDesigns {
   }
 
  private:
+  static constexpr std::size_t kCount = FamilyPhysics::kDeviations;
+
+  /// Each deviation of a damper as the column of the unknown that does the same to it. The springs
+  /// stand in two numbers: that before the flow, and the seal's give, which goes the other way.
+  std::vector<double> deviation_columns(std::size_t damper) const {
+    std::vector<double> select(problem_.unknowns() * kCount);
+    select[(PhysicsProblem::kOffset + 1 + damper) * kCount + 0] = 1;
+    select[kYieldShare * kCount + 1] = select[kViscousShare * kCount + 1] = 1;
+    select[kStiffness * kCount + 2] = 1;
+    select[kSealGive * kCount + 2] = -1;
+    select[PhysicsProblem::kOffset * kCount + 3] = 1;
+    return select;
+  }
+
   const PhysicsProblem& problem_;
   std::vector<double> x_;
   std::vector<Normal> dampers_, designs_;
@@ -396,13 +438,42 @@ Ridges best_ridges(const LeftOutDesigns& left_out) {
   return best;
 }
 
+/// The spread of builds: of those of one drawing where builds repeat, of all about the family else.
+void add_spreads(const FamilyGroups& groups, const std::vector<double>& strengths,
+                 FamilyPhysicsFit& fit) {
+  // The mean strength of each drawing's builds, and what these differ by from it.
+  std::vector<double> mean(groups.drawings), builds(groups.drawings);
+  for (std::size_t d = 0; d < strengths.size(); ++d) ++builds[groups.drawing_of[d]];
+  for (std::size_t d = 0; d < strengths.size(); ++d)
+    mean[groups.drawing_of[d]] += strengths[d] / builds[groups.drawing_of[d]];
+  double within = 0, about_family = 0;
+  for (std::size_t d = 0; d < strengths.size(); ++d) {
+    within += std::pow(strengths[d] - mean[groups.drawing_of[d]], 2);
+    about_family += strengths[d] * strengths[d];
+  }
+
+  // Its root mean square with the interval of chi squared.
+  fit.builds_repeat = groups.dampers > groups.drawings;
+  const auto freedom =
+      static_cast<double>(fit.builds_repeat ? groups.dampers - groups.drawings : groups.dampers);
+  const double square = (fit.builds_repeat ? within : about_family) / freedom;
+  fit.build_spread = std::sqrt(square);
+  fit.spread_low = std::sqrt(square * freedom / chi_squared_quantile(freedom, 0.975));
+  fit.spread_high = std::sqrt(square * freedom / chi_squared_quantile(freedom, 0.025));
+
+  // The means of drawings scatter by what the family gets wrong and by what is left of their
+  // builds.
+  if (!fit.builds_repeat) return;
+  double wrong = 0;
+  for (std::size_t k = 0; k < groups.drawings; ++k)
+    wrong += (mean[k] * mean[k] - square / builds[k]) / static_cast<double>(groups.drawings);
+  fit.drawing_spread = std::sqrt(std::max(0., wrong));
+}
+
 /// The spread of builds, and what is expected of a new one before it is measured.
 void add_builds(const LeftOutDesigns& left_out, const Ridges& ridges, FamilyPhysicsFit& fit) {
-  double square = 0;
-  const std::vector<double> strengths = left_out.strengths(ridges);
-  for (const double strength : strengths)
-    square += strength * strength / static_cast<double>(strengths.size());
-  fit.build_spread = std::sqrt(square);
+  if (const std::vector<double> strengths = left_out.strengths(ridges); !strengths.empty())
+    add_spreads(left_out.groups(), strengths, fit);
 
   // The residuals are weighted so that the squares of all records sum to a mean square share.
   constexpr double kLeastRecordError = 0.005;
@@ -416,28 +487,10 @@ void add_builds(const LeftOutDesigns& left_out, const Ridges& ridges, FamilyPhys
             deviation[i] * deviation[j] / static_cast<double>(deviated.deviations.size());
   fit.physics.record_error =
       std::max(kLeastRecordError, std::sqrt(std::max(0., deviated.squares_left)));
+  fit.physics.information = left_out.information(ridges, fit.physics);
 }
 
 }  // namespace
-
-std::vector<double> run_family_physics(const FamilyPhysics& physics, const FamilyRecord& record) {
-  std::vector<double> force(record.inputs.size());
-  double state[kPhysicsStates] = {};
-  FamilyPhysics::Element element;
-  double current = NAN;
-  for (std::size_t k = 0; k < record.inputs.size(); ++k) {
-    // A damper at a constant current is one element for all samples.
-    if (record.inputs[k].current != current) {
-      current = record.inputs[k].current;
-      element = physics.element(record.member, current);
-    }
-    if (k > 0)
-      physics_advance(&element, record.inputs[k - 1].velocity, record.inputs[k].velocity,
-                      record.time[k] - record.time[k - 1], state);
-    force[k] = state[0] + state[1] + element.offset;
-  }
-  return force;
-}
 
 FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, int threads,
                                     const Monitor& monitor) {

@@ -8,8 +8,13 @@ namespace dashpot {
 /// The fitted family with the offset of its force and the spread of its builds.
 struct FamilyPhysicsFit {
   FamilyPhysics physics;
-  double offset = 0;                      ///< N
-  double build_spread = 0;                ///< from designs that were left out; 0 where there is one
+  double offset = 0;  ///< N
+  /// From designs that were left out, with its 95 % interval; 0 where there is one.
+  double build_spread = 0, spread_low = 0, spread_high = 0;
+  /// Builds of one drawing tell theirs apart from what the family gets wrong of a drawing; else
+  /// build_spread is of both.
+  bool builds_repeat = false;
+  double drawing_spread = 0;
   double all_ridge = 0, yield_ridge = 0;  ///< that leaving designs out has chosen
   bool converged = false;
   int iterations = 0;
@@ -20,8 +25,5 @@ struct FamilyPhysicsFit {
 /// these records chooses, with the fit linearised. Throws Error where nothing moves.
 FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, int threads,
                                     const Monitor& monitor);
-
-/// Force of the family in free run at every sample of a record, without the family's offset.
-std::vector<double> run_family_physics(const FamilyPhysics& physics, const FamilyRecord& record);
 
 }  // namespace dashpot

@@ -104,16 +104,19 @@ std::unique_ptr<FamilyForce> family_force_from_json(const Value& value) {
 
 Value FamilyModel::to_json() const {
   const FamilyBaseline& baseline = family_->baseline;
-  return Value::object({{"name", family_->name},
-                        {"member", dashpot::to_json(member_)},
-                        {"domain", domain_json(family_->domain)},
-                        {"outside", family_->outside == OutsideFamily::Mark ? kMark : kRefuse},
-                        {"build_spread", family_->build_spread},
-                        {"baseline", Value::object({{"target", name_of(baseline.target)},
-                                                    {"share", baseline.share},
-                                                    {"onset", baseline.onset}})},
-                        {"force", family_->force->to_json()},
-                        {"offset", offset_}});
+  Value value =
+      Value::object({{"name", family_->name},
+                     {"member", dashpot::to_json(member_)},
+                     {"domain", domain_json(family_->domain)},
+                     {"outside", family_->outside == OutsideFamily::Mark ? kMark : kRefuse},
+                     {"build_spread", family_->build_spread},
+                     {"baseline", Value::object({{"target", name_of(baseline.target)},
+                                                 {"share", baseline.share},
+                                                 {"onset", baseline.onset}})},
+                     {"force", family_->force->to_json()},
+                     {"offset", offset_}});
+  if (family_->drawing_spread > 0) value.add("drawing_spread", family_->drawing_spread);
+  return value;
 }
 
 std::unique_ptr<FamilyModel> family_model_from_json(const Value& value) {
@@ -124,13 +127,14 @@ std::unique_ptr<FamilyModel> family_model_from_json(const Value& value) {
   family->domain = read_domain(reader.required("domain"));
   family->outside = read_outside(reader.required("outside"));
   family->build_spread = reader.number("build_spread");
+  family->drawing_spread = reader.number("drawing_spread", 0);
   family->baseline = read_baseline(reader.required("baseline"));
   family->force = family_force_from_json(reader.required("force"));
   const double offset = reader.number("offset");
   reader.finish();
 
-  if (!(family->build_spread >= 0))
-    throw Error(value.where(), "build_spread is negative", "0 or more");
+  if (!(family->build_spread >= 0 && family->drawing_spread >= 0))
+    throw Error(value.where(), "a spread is negative", "0 or more");
   return std::make_unique<FamilyModel>(std::move(family), std::move(member), offset);
 }
 

@@ -38,6 +38,8 @@ struct MemberField {
 };
 std::span<const MemberField> member_fields();
 constexpr std::string_view kYieldStress = "yield_stress";  ///< Pa, a condition of each record
+/// The number of a build among those of its drawing, a condition of a record; without it one build.
+constexpr std::string_view kSpecimen = "specimen";
 
 const double* find_condition(const Conditions& conditions, std::string_view name);
 

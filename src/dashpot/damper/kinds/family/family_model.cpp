@@ -51,7 +51,7 @@ double FamilyModel::nominal_force(const DamperInput& input,
 }
 
 bool FamilyModel::is_ensemble() const noexcept {
-  return family_->build_spread > 0 || family_->force->is_ensemble();
+  return family_->build_spread > 0 || family_->drawing_spread > 0 || family_->force->is_ensemble();
 }
 
 double FamilyModel::flow(const DamperInput& input, std::span<const double> state,
@@ -64,8 +64,9 @@ double FamilyModel::flow(const DamperInput& input, std::span<const double> state
 
 double FamilyModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
   const DamperInput coil = in_coil(input, state);
-  return std::hypot(family_->build_spread * nominal_force(coil, state),
-                    strength_ * family_->force->spread(member_, coil));
+  return std::hypot(
+      std::hypot(family_->build_spread, family_->drawing_spread) * nominal_force(coil, state),
+      strength_ * family_->force->spread(member_, coil));
 }
 
 std::unique_ptr<DamperModel> FamilyModel::with_offset(double newton) const {

@@ -22,8 +22,10 @@ struct Family {
   std::string name;
   std::shared_ptr<const FamilyForce> force;
   FamilyBaseline baseline;
-  double build_spread =
-      0;  ///< standard deviation of a new damper's force from its design's, as a share
+  /// Standard deviation of the force of builds of one drawing, as a share; with what the family
+  /// gets wrong of a drawing in it, where no repeated build tells the two apart.
+  double build_spread = 0;
+  double drawing_spread = 0;  ///< the same of what it gets wrong, where builds tell it apart
   std::vector<Range> domain;  ///< of the dampers that it was fitted on: each required field
   OutsideFamily outside = OutsideFamily::Mark;
 };

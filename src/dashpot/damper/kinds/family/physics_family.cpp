@@ -123,18 +123,48 @@ double PhysicsFamily::force(const FamilyMember&, const DamperInput&,
   return state[0] + state[1] + physics_.reference.force * physics_.deviation[3];
 }
 
+std::vector<double> run_family_physics(const FamilyPhysics& physics, const FamilyMember& member,
+                                       std::span<const DamperInput> inputs,
+                                       std::span<const double> time) {
+  std::vector<double> force(inputs.size());
+  double state[kPhysicsStates] = {};
+  FamilyPhysics::Element element;
+  double current = NAN;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    // A damper at a constant current is one element for all samples.
+    if (inputs[k].current != current) {
+      current = inputs[k].current;
+      element = physics.element(member, current);
+    }
+    if (k > 0)
+      physics_advance(&element, inputs[k - 1].velocity, inputs[k].velocity, time[k] - time[k - 1],
+                      state);
+    force[k] = state[0] + state[1] + element.offset;
+  }
+  return force;
+}
+
+std::vector<double> FamilyPhysics::deviation_covariance() const {
+  constexpr double kLeast = 1e-6;
+  std::vector<double> all(covariance.begin(), covariance.end());
+  for (std::size_t k = 0; k < kDeviations; ++k) all[k * kDeviations + k] += kLeast;
+  return all;
+}
+
 Value PhysicsFamily::to_json() const {
   Value reference = Value::object(), numbers = Value::object();
   for (const ReferenceField& field : kReferences)
     reference.add(std::string(field.name), physics_.reference.*field.field);
   for (std::size_t k = 0; k < kPhysicsNumbers; ++k)
     numbers.add(std::string(kTable[k].name), physics_.numbers[k]);
-  return Value::object({{"kind", kPhysicsFamily},
-                        {"reference", std::move(reference)},
-                        {"numbers", std::move(numbers)},
-                        {"deviation", array_of(physics_.deviation)},
-                        {"covariance", array_of(physics_.covariance)},
-                        {"record_error", physics_.record_error}});
+  Value value = Value::object({{"kind", kPhysicsFamily},
+                               {"reference", std::move(reference)},
+                               {"numbers", std::move(numbers)},
+                               {"deviation", array_of(physics_.deviation)},
+                               {"covariance", array_of(physics_.covariance)},
+                               {"record_error", physics_.record_error}});
+  if (!physics_.information.empty()) value.add("information", array_of(physics_.information));
+  return value;
 }
 
 std::unique_ptr<FamilyForce> read_physics_family(const Value& value, ObjectReader& reader) {
@@ -150,6 +180,10 @@ std::unique_ptr<FamilyForce> read_physics_family(const Value& value, ObjectReade
   read_array(reader.required("deviation"), physics.deviation);
   read_array(reader.required("covariance"), physics.covariance);
   physics.record_error = reader.number("record_error");
+  if (const Value* information = reader.optional("information")) {
+    physics.information.resize((kPhysicsNumbers + 1) * (kPhysicsNumbers + 1));
+    read_array(*information, physics.information);
+  }
   reader.finish();
   return std::make_unique<PhysicsFamily>(std::move(physics), value.where());
 }

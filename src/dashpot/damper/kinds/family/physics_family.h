@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "dashpot/damper/c_text/physics_family.h"
 #include "dashpot/damper/kinds/family/family_force.h"
@@ -48,6 +49,12 @@ struct FamilyPhysics {
   /// of a record's force, as a share. 0: not known.
   std::array<double, kDeviations * kDeviations> covariance{};
   double record_error = 0;
+  /// Of the fit's numbers and its offset over the reference force: the inverse of their covariance,
+  /// builds and errors of a drawing as `covariance` has them. Row by row; empty: not known.
+  std::vector<double> information = {};
+
+  /// The deviations' covariance, of which no direction is known exactly.
+  std::vector<double> deviation_covariance() const;
 
   /// What one damper at one current comes to.
   using Element = PhysicsElement;
@@ -56,6 +63,11 @@ struct FamilyPhysics {
   static Numbers priors() noexcept;
   static std::span<const PhysicsNumber, kPhysicsNumbers> table();
 };
+
+/// Force of the family in free run at every sample, without the family's offset.
+std::vector<double> run_family_physics(const FamilyPhysics& physics, const FamilyMember& member,
+                                       std::span<const DamperInput> inputs,
+                                       std::span<const double> time);
 
 /// State: the seal's force and that of the flow, N, and the remembered square of the speed.
 constexpr std::size_t kPhysicsStates = 3;
