@@ -74,7 +74,7 @@ std::string choices_of(const Option& option, Depth depth) {
   return fmt::format(": {} ... ({} in all)", join(first, ", "), option.choices.size());
 }
 
-std::string text_of(const Option& option, Depth depth) {
+std::string help_text(const Option& option, Depth depth) {
   std::string text = option.help + choices_of(option, depth);
   if (depth == Depth::Whole) text += option.details;
   const std::string fallback = default_of(option);
@@ -83,7 +83,7 @@ std::string text_of(const Option& option, Depth depth) {
 
 std::string option_block(const Option& option, std::size_t width, Depth depth) {
   const std::string label = "  " + option_label(option);
-  const std::vector<std::string> lines = wrap(text_of(option, depth), width - kLabelColumns);
+  const std::vector<std::string> lines = wrap(help_text(option, depth), width - kLabelColumns);
   std::string block;
   const bool fits = columns_of(label) + 2 <= kLabelColumns;
   if (!fits) block = label + '\n';
@@ -223,7 +223,7 @@ std::string option_label(const Option& option) {
   return label;
 }
 
-std::string option_text(const Option& option) { return text_of(option, Depth::Whole); }
+std::string option_text(const Option& option) { return help_text(option, Depth::Whole); }
 
 std::string overview(const std::vector<Command>& commands, const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());
