@@ -11,6 +11,7 @@
 #include "data.h"
 #include "production_line.h"
 #include "sequence_sheet.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -82,6 +83,7 @@ int run_family(const BenchSettings& settings, Console& console) {
 
 int run_bench(BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+  page_units(settings.campaign.units);
 
   // One option for what scatters, builds of drawings or dampers of a line.
   if (std::isfinite(settings.scatter))
@@ -107,8 +109,8 @@ int run_bench(BenchSettings& settings, Console& console) {
                   " to " + format_number(damper.drive_max));
     return kNotUsable;
   }
-  const std::filesystem::path statement =
-      write_campaign(campaign, damper, settings.folder, console.command_line());
+  const std::filesystem::path statement = write_campaign(
+      campaign, damper, settings.folder, console.command_line(), settings.campaign.units);
 
   // The user reads which damper this was, and with which command to go on.
   console.talk(damper.damper + "; " + damper.source + '\n');
@@ -157,6 +159,10 @@ Command bench_command() {
        .value = "SHARE",
        .minimum = 0,
        .default_text = "0.03 for builds, 0.02 over a line"});
+  Option units = units_option(settings->campaign.units);
+  units.help = "units of the recordings, as lbf,in/s";
+  units.default_text = "N, mm and m/s";
+  command.options.push_back(std::move(units));
   command.options.push_back(
       {.names = "--sequences",
        .target = &settings->list_sequences,

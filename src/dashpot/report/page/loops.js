@@ -9,8 +9,11 @@ function three_digits(value) {
   return (is_plain ? String(Number(value.toPrecision(3))) : Number(value.toPrecision(3)).toExponential()).replace("e+", "e").replaceAll("-", "−");
 }
 
+// How a page shows what is computed in SI: for each unit its name there and the factor to it.
+const kPageUnits = {N: {name: "N", factor: 1}, m: {name: "mm", factor: 1e3}, "m/s": {name: "mm/s", factor: 1e3}, J: {name: "J", factor: 1}};
+
 // A slider: {key, label, unit, scale (shown = scale * value), low, high, value, is_log?, meaning?}.
-function motion_sliders({inputs: [displacement, velocity, current]}) {
+function motion_sliders({inputs: [displacement, velocity, current]}, units = kPageUnits) {
   const stroke = half_stroke(displacement), top = Math.max(Math.abs(velocity.low), Math.abs(velocity.high));
   const edge = top / (2 * Math.PI * stroke);  // Hz: the whole stroke at the greatest speed
   const two_digits = (value) => Number(value.toPrecision(2));
@@ -18,7 +21,7 @@ function motion_sliders({inputs: [displacement, velocity, current]}) {
   return [
     {key: "current", label: current.unit === "V" ? "Voltage" : "Current", unit: current.unit, scale: 1, low: 1.5 * levels[0], high: 1.5 * levels[1] || 1,
       value: two_digits((current.low + current.high) / 2)},
-    {key: "amplitude", label: "Amplitude", unit: "mm", scale: 1e3, low: stroke / 50, high: 1.5 * stroke, value: amplitude},
+    {key: "amplitude", label: "Amplitude", unit: units.m.name, scale: units.m.factor, low: stroke / 50, high: 1.5 * stroke, value: amplitude},
     {key: "frequency", label: "Frequency", unit: "Hz", scale: 1, low: edge / 20, high: 20 * edge, is_log: true,
       value: two_digits(0.6 * top / (2 * Math.PI * amplitude))},
   ];
@@ -49,16 +52,17 @@ function value_at({low, high, is_log}, place) {
 }
 
 // Where a motion leaves the data of the model, in words, one for each way.
-function beyond({inputs: [displacement, velocity, current]}, setting) {
+function beyond({inputs: [displacement, velocity, current]}, setting, units = kPageUnits) {
+  const way = (value) => three_digits(units.m.factor * value), rate = (value) => three_digits(units["m/s"].factor * value);
   const outside = (least, most, {low, high}) => least < low - 1e-9 * Math.abs(low) || most > high + 1e-9 * Math.abs(high);
   const middle = (displacement.low + displacement.high) / 2, speed = 2 * Math.PI * setting.frequency * setting.amplitude;
   const words = [];
   if (outside(setting.current, setting.current, current))
     words.push(`${current.unit === "V" ? "voltage" : "current"} ${three_digits(setting.current)} ${current.unit}, recorded ${three_digits(current.low)} to ${three_digits(current.high)}`);
   if (outside(middle - setting.amplitude, middle + setting.amplitude, displacement))
-    words.push(`amplitude ${three_digits(1e3 * setting.amplitude)} mm, recorded to ${three_digits(500 * (displacement.high - displacement.low))}`);
+    words.push(`amplitude ${way(setting.amplitude)} ${units.m.name}, recorded to ${way((displacement.high - displacement.low) / 2)}`);
   if (outside(-speed, speed, velocity))
-    words.push(`speed to ${three_digits(1e3 * speed)} mm/s, recorded ${three_digits(1e3 * velocity.low)} to ${three_digits(1e3 * velocity.high)}`);
+    words.push(`speed to ${rate(speed)} ${units["m/s"].name}, recorded ${rate(velocity.low)} to ${rate(velocity.high)}`);
   return words;
 }
 
@@ -67,9 +71,9 @@ function kept_range(old, [least, most]) {
   return old && least >= old[0] && most <= old[1] && most - least >= 0.5 * (old[1] - old[0]) ? old : [least, most];
 }
 
-// One cycle after as many as it takes to close, or as there is time for: displacement mm, velocity mm/s and force N along it, the energy that it
-// takes out, J, and whether it closes. Begins at rest at the lower end.
-function loop_of({model, create, reset, advance}, {current, amplitude, frequency}, parameters) {
+// One cycle after as many as it takes to close, or as there is time for: displacement, velocity and force along it, the energy that it
+// takes out, in the units of the page, and whether it closes. Begins at rest at the lower end.
+function loop_of({model, create, reset, advance}, {current, amplitude, frequency}, parameters, units = kPageUnits) {
   const [{low, high}] = model.inputs, middle = (low + high) / 2, rate = 2 * Math.PI * frequency, begin = performance.now();
   const motion = Array.from({length: kPerCycle + 1}, (_, k) => {
     const phase = 2 * Math.PI * k / kPerCycle;
@@ -93,11 +97,13 @@ function loop_of({model, create, reset, advance}, {current, amplitude, frequency
 
   let energy = 0;
   for (let k = 1; k <= kPerCycle; k++) energy += (force[k] + force[k - 1]) / 2 * (motion[k][0] - motion[k - 1][0]);
-  return {displacement: motion.map(([x]) => 1e3 * x), velocity: motion.map(([, v]) => 1e3 * v), force, energy, least, greatest, closes};
+  const {N, m, J, "m/s": rate_unit} = units;
+  return {displacement: motion.map(([x]) => m.factor * x), velocity: motion.map(([, v]) => rate_unit.factor * v),
+    force: force.map((f) => N.factor * f), energy: J.factor * energy, least: N.factor * least, greatest: N.factor * greatest, closes};
 }
 
 // What is seen of a loop, in words.
-function loop_words({least, greatest, energy, closes}) {
+function loop_words({least, greatest, energy, closes}, units = kPageUnits) {
   if (!Number.isFinite(least + greatest)) return "The model diverges here.";
-  return `Force ${three_digits(least)} to ${three_digits(greatest)} N; ${three_digits(Math.abs(energy))} J ${energy < 0 ? "fed in" : "taken out"} in a cycle${closes ? "" : "; the loop is not closed yet"}.`;
+  return `Force ${three_digits(least)} to ${three_digits(greatest)} ${units.N.name}; ${three_digits(Math.abs(energy))} ${units.J.name} ${energy < 0 ? "fed in" : "taken out"} in a cycle${closes ? "" : "; the loop is not closed yet"}.`;
 }

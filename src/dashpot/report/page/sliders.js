@@ -19,27 +19,27 @@ function slider_node(slider, on_move) {
 }
 
 // `programs`: functions that give them, so that those alone run that the reader looks at.
-function document_sliders({models}) {
+function document_sliders({models}, units) {
   const velocity = new Plot("Force over velocity"), displacement = new Plot("Force over displacement");
   const controls = element("div"), words = element("p", {class: "note", "aria-live": "polite"}), leaves = element("p", {class: "beyond", role: "status"});
   let program, setting, parameters, is_due = false, is_first = true;
 
   function draw() {
     is_due = false;
-    const loop = loop_of(program, setting, parameters), is_changed = Object.keys(parameters).length > 0;
-    const before = is_changed ? loop_of(program, setting, {}) : null;
+    const loop = loop_of(program, setting, parameters, units), is_changed = Object.keys(parameters).length > 0;
+    const before = is_changed ? loop_of(program, setting, {}, units) : null;
     const spec = (key, label) => () => ({
-      x: {label}, y: {label: "Force (N)"}, height: 320,
+      x: {label}, y: {label: `Force (${units.N.name})`}, height: 320,
       series: [...before ? [{label: "as identified", x: before[key], y: before.force, colour: colour("measured"), dash: [6, 4]}] : [],
         {label: "as set", x: loop[key], y: loop.force, colour: colour("modelled"), width: 2}],
     });
-    for (const [plot, key, label] of [[velocity, "velocity", "Velocity (mm/s)"], [displacement, "displacement", "Displacement (mm)"]]) {
+    for (const [plot, key, label] of [[velocity, "velocity", `Velocity (${units["m/s"].name})`], [displacement, "displacement", `Displacement (${units.m.name})`]]) {
       if (is_first) plot.show(spec(key, label)); else plot.move(spec(key, label));
     }
     is_first = false;
-    const outside = beyond(program.model, setting);
+    const outside = beyond(program.model, setting, units);
     leaves.textContent = outside.length ? `Outside the data: ${outside.join("; ")}. What is drawn there is extrapolated.` : "";
-    words.textContent = loop_words(loop);
+    words.textContent = loop_words(loop, units);
   }
   // However fast the handle moves, one drawing per frame.
   function redraw() {
@@ -49,7 +49,7 @@ function document_sliders({models}) {
 
   function take(index) {
     program = page_programs[models[index].program]();
-    const sliders = motion_sliders(program.model), own = parameter_sliders(program.model);
+    const sliders = motion_sliders(program.model, units), own = parameter_sliders(program.model);
     setting = Object.fromEntries(sliders.map(({key, value}) => [key, value]));
     parameters = {};
     const nodes = [...sliders.map((slider) => slider_node(slider, (key, value) => { setting[key] = value; redraw(); })),
