@@ -51,13 +51,29 @@ std::string mat_recording() {
                              {.name = "F_N", .rows = 60, .columns = 1, .values = force}});
 }
 
-std::vector<Recording> recordings() {
+/// Deflated in chunks, with units.
+std::string hdf5_recording() {
   const TemporaryFolder folder;
-  write_example_hdf5(folder.path() / "run.h5", {"a", "b"});
+  const std::filesystem::path path = folder.path() / "run.h5";
+  std::vector<double> t, x, force;
+  for (int k = 0; k < 60; ++k) {
+    t.push_back(0.01 * k);
+    x.push_back(k % 7);
+    force.push_back(40 * (k % 5));
+  }
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  write_hdf5_dataset(file, "time", H5T_NATIVE_DOUBLE, t.data(), 60, 1, "s");
+  write_hdf5_dataset(file, "displacement", H5T_NATIVE_DOUBLE, x.data(), 60, 1, "mm");
+  write_hdf5_dataset(file, "force", H5T_NATIVE_DOUBLE, force.data(), 60, 1, "N");
+  H5Fclose(file);
+  return dashpot::read_file(path);
+}
+
+std::vector<Recording> recordings() {
   return {{"run.csv", csv_recording()},
           {"run.txt", daq_recording()},
           {"run.mat", mat_recording()},
-          {"run.h5", dashpot::read_file(folder.path() / "run.h5")},
+          {"run.h5", hdf5_recording()},
           {"plain.mf4", example_mdf4(0)},
           {"packed.mf4", example_mdf4(3)},
           {"run.tdms", example_tdms(false, false)},
