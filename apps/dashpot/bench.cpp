@@ -12,6 +12,7 @@
 #include "data.h"
 #include "production_line.h"
 #include "sequence_sheet.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -89,6 +90,10 @@ int run_family(const BenchSettings& settings, Console& console) {
 
 int run_bench(BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+  page_units(settings.campaign.units);
+  if (!settings.in_plant.plant.empty() && !settings.campaign.units.empty())
+    throw UsageError("--units", "is not for recordings inside a plant, whose file states units",
+                     "leave it out");
   if (!settings.in_plant.plant.empty())
     return record_in_plant(settings.in_plant, settings.campaign, settings.folder, console);
 
@@ -116,8 +121,8 @@ int run_bench(BenchSettings& settings, Console& console) {
                   " to " + format_number(damper.drive_max));
     return kNotUsable;
   }
-  const std::filesystem::path statement =
-      write_campaign(campaign, damper, settings.folder, console.command_line());
+  const std::filesystem::path statement = write_campaign(
+      campaign, damper, settings.folder, console.command_line(), settings.campaign.units);
 
   // The user reads which damper this was, and with which command to go on.
   console.talk(damper.damper + "; " + damper.source + '\n');
@@ -167,6 +172,10 @@ Command bench_command() {
        .minimum = 0,
        .default_text = "0.03 for builds, 0.02 over a line"});
   append(command.options, plant_bench_options(settings->in_plant));
+  Option units = units_option(settings->campaign.units);
+  units.help = "units of the recordings, as lbf,in/s";
+  units.default_text = "N, mm and m/s";
+  command.options.push_back(std::move(units));
   command.options.push_back(
       {.names = "--sequences",
        .target = &settings->list_sequences,

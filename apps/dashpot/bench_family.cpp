@@ -230,7 +230,8 @@ FamilyBench bench_family(const FamilyBenchSettings& family, const CampaignSettin
   FamilyBench made{drawings.size(), built.size(), 0, folder / "dataset.yaml"};
   for (const BuiltDamper& damper : built)
     for (const Record& record : damper.campaign.records) {
-      write_file(folder / recording_file(record), recording_csv(record, DriveUnit::Ampere));
+      write_file(folder / recording_file(record),
+                 recording_csv(record, DriveUnit::Ampere, settings.units));
       ++made.records;
     }
   for (const FamilyDrawing& drawing : drawings)

@@ -8,6 +8,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/bench_experiments.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -145,17 +146,22 @@ std::string recording_file(const Record& record) {
   return name;
 }
 
-std::string recording_csv(const Record& record, DriveUnit drive_unit) {
+std::string recording_csv(const Record& record, DriveUnit drive_unit, const std::string& units) {
   constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
   const std::string drive = drive_channel(drive_unit);
+  const PrintUnits shown = page_units(units);
+  const PrintUnit length = shown.of("m"), force = shown.of("N"),
+                  speed = file_units(units).of("m/s");
 
   // A bench has time, motion, force and drive; velocity only where it was measured.
-  std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
-                              {"x_mm", record.channel("displacement").samples, 1000},
-                              {"F_N", record.channel("force").samples},
-                              {drive_column(drive_unit), record.channel(drive).samples}};
+  std::vector<Column> columns{
+      {"t_s", record.time, 1, kTimeDigits},
+      {"x_" + length.name, record.channel("displacement").samples, length.factor},
+      {"F_" + force.name, record.channel("force").samples, force.factor},
+      {drive_column(drive_unit), record.channel(drive).samples}};
   const Channel& velocity = record.channel("velocity");
-  if (!velocity.origin.starts_with("derived")) columns.push_back({"v_m/s", velocity.samples});
+  if (!velocity.origin.starts_with("derived"))
+    columns.push_back({"v_" + speed.name, velocity.samples, speed.factor});
 
   // The header names channel and unit as the reader of recordings expects them.
   std::string text;
@@ -259,9 +265,9 @@ Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& dampe
 }
 
 fs::path write_campaign(const Dataset& campaign, const ParameterSet& damper, const fs::path& folder,
-                        const std::string& command) {
+                        const std::string& command, const std::string& units) {
   for (const Record& record : campaign.records)
-    write_file(folder / recording_file(record), recording_csv(record, campaign.drive_unit));
+    write_file(folder / recording_file(record), recording_csv(record, campaign.drive_unit, units));
   const fs::path statement = folder / "dataset.yaml";
   write_file(statement, dataset_yaml(campaign, damper, command));
   return statement;

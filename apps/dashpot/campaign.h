@@ -20,6 +20,7 @@ struct CampaignSettings {
   std::string experiment;            ///< in place of all of them
   double sample_rate = 0;            ///< Hz; 0: that of bench, or of the experiment
   BenchOptions bench;
+  std::string units;  ///< of --units
 };
 
 std::vector<Option> campaign_options(CampaignSettings& settings);
@@ -32,7 +33,7 @@ Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& dampe
 /// state the truth that a real bench does not know. Returns the path of dataset.yaml.
 std::filesystem::path write_campaign(const Dataset& campaign, const ParameterSet& damper,
                                      const std::filesystem::path& folder,
-                                     const std::string& command);
+                                     const std::string& command, const std::string& units);
 
 /// The motions asked for, which lack their drive: sines, or one sequence.
 std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchOptions options);
@@ -41,8 +42,9 @@ SineMotion parse_motion(const std::string& text);
 double parse_level(const std::string& text);
 /// The levels asked for; none: none.
 std::vector<double> stated_levels(const CampaignSettings& settings);
-/// The name and the text of a record's CSV file, as a real bench would leave it.
+/// The name and the text of a record's CSV file, as a real bench would leave it; without stated
+/// units N, mm and m/s.
 std::string recording_file(const Record& record);
-std::string recording_csv(const Record& record, DriveUnit drive_unit);
+std::string recording_csv(const Record& record, DriveUnit drive_unit, const std::string& units);
 
 }  // namespace dashpot::cli

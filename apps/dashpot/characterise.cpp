@@ -11,13 +11,14 @@
 #include "document_text.h"
 #include "results.h"
 #include "speeds.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
 
 struct CharacteriseSettings {
   DataSettings data;
-  std::string speeds, csv, report;
+  std::string speeds, csv, report, units;
 };
 
 constexpr std::string_view kCharacteriseExample =
@@ -30,18 +31,20 @@ constexpr std::string_view kCharacteriseExample =
 
 int run_characterise(const CharacteriseSettings& settings, Console& console) {
   require_page(settings.report);
-  const CharacteriseOptions options{parse_speeds(settings.speeds)};
+  const PrintUnits units = page_units(settings.units);
+  const CharacteriseOptions options{parse_speeds(settings.speeds, units)};
   const Dataset dataset = load_recordings(settings.data, console);
   const Characterisation figures = characterise(dataset, options);
   console.check_stop();
-  const Document document = characterisation_document(
+  Document document = characterisation_document(
       {dataset, figures, console.command_line(), DASHPOT_VERSION, date_now()});
+  document.units = units;
 
   // The sheet, then the files that were asked for.
   print_document(document, console);
   if (console.json) console.print_json(document_json(document));
   if (!settings.csv.empty()) {
-    write_file(settings.csv, cycles_csv(figures));
+    write_file(settings.csv, cycles_csv(figures, file_units(settings.units)));
     console.print("\nCycles  " + settings.csv + '\n');
   }
   if (!settings.report.empty()) {
@@ -73,10 +76,11 @@ Command characterise_command() {
       .run = [settings](Console& console) { return run_characterise(*settings, console); }};
 
   append(command.options,
-         {speeds_option(settings->speeds),
+         {units_option(settings->units),
+          speeds_option(settings->speeds),
           {.names = "--csv",
            .target = &settings->csv,
-           .help = "also write every cycle with all its figures, in SI",
+           .help = "also write every cycle with all its figures",
            .value = "FILE",
            .takes = Takes::File},
           {.names = "--report",

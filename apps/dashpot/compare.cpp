@@ -16,13 +16,14 @@
 #include "document_text.h"
 #include "results.h"
 #include "speeds.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
 
 struct CompareSettings {
   std::vector<std::string> things;
-  std::string speeds, report;
+  std::string speeds, report, units;
   double cutoff_hz = 0;
   int threads = 0;
 };
@@ -69,8 +70,9 @@ std::vector<ComparedThing> gather(const CompareSettings& settings, Console& cons
     things.back().dataset = &datasets.emplace_back(load_recordings(data, console));
   }
 
-  std::vector<ComparedThing> compared = compared_things(
-      things, parse_speeds(settings.speeds), settings.threads, [&] { console.check_stop(); });
+  std::vector<ComparedThing> compared =
+      compared_things(things, parse_speeds(settings.speeds, page_units(settings.units)),
+                      settings.threads, [&] { console.check_stop(); });
   shorten_names(compared);
   return compared;
 }
@@ -81,10 +83,12 @@ int run_compare(const CompareSettings& settings, Console& console) {
     throw UsageError("compare", "one thing cannot be compared",
                      "two or more model files and recordings: dashpot compare before/ after/");
 
-  const std::vector<double> speeds = parse_speeds(settings.speeds);
+  const PrintUnits units = page_units(settings.units);
+  const std::vector<double> speeds = parse_speeds(settings.speeds, units);
   const std::vector<ComparedThing> things = gather(settings, console);
-  const Document document =
+  Document document =
       comparison_document({things, speeds, console.command_line(), DASHPOT_VERSION, date_now()});
+  document.units = units;
   print_document(document, console);
 
   // A model that has seen the recordings is not judged by them.
@@ -119,6 +123,7 @@ Command compare_command() {
                            "dataset files)",
                    .takes = Takes::File,
                    .required = true},
+                  units_option(settings->units),
 
                   // How they are compared, and where the page goes.
                   speeds_option(settings->speeds),

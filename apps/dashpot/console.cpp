@@ -56,27 +56,31 @@ Console::Console(std::string command_line, const std::atomic<bool>& stop)
 void Console::print(std::string_view text) {
   progress_.clear();
   if (json && quiet) return;
+  errno = 0;
   put(text, json ? stderr : stdout);
+  note_reader();
 }
 
 void Console::print_json(const Value& value) {
   progress_.clear();
   const std::string text = format_json(presentable(value));  // what is not finite becomes null
+  errno = 0;
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!text.ends_with('\n')) std::fputc('\n', stdout);
+  note_reader();
 }
 
 void Console::talk(std::string_view text) {
   if (quiet) return;
   progress_.clear();
-  std::fflush(stdout);
+  flush();
   put(text, stderr);
 }
 
 void Console::talk_over(std::size_t lines, std::string_view text) {
   if (quiet) return;
   progress_.clear();
-  std::fflush(stdout);
+  flush();
   if (lines > 0) fmt::print(stderr, "\x1b[{}A\x1b[J", lines);
   put(text, stderr);
 }
@@ -91,7 +95,7 @@ void Console::error(std::string_view text) { message("error", "1;31", text); }
 
 void Console::message(std::string_view label, std::string_view colour, std::string_view text) {
   progress_.clear();
-  std::fflush(stdout);  // keeps the order where both streams go to one terminal
+  flush();  // keeps the order where both streams go to one terminal
   put(fmt::format("{}: {}\n", coloured(label, colour, STDERR_FILENO), text), stderr);
 }
 
@@ -114,10 +118,20 @@ void Console::check_stop() const {
 
 void Console::finish() {
   progress_.clear();
-  errno = 0;
-  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
-  if (errno == EPIPE) throw ReaderGone();
+  flush();
+  if (reader_has_left_) throw ReaderGone();
+  if (!std::ferror(stdout)) return;
   throw Error("standard output", "cannot be written", "is the disk full?");
+}
+
+void Console::flush() {
+  errno = 0;
+  std::fflush(stdout);
+  note_reader();
+}
+
+void Console::note_reader() {
+  if (errno == EPIPE && std::ferror(stdout)) reader_has_left_ = true;
 }
 
 std::string Console::bold(std::string_view text) const {

@@ -56,12 +56,17 @@ class Console {
 
  private:
   void message(std::string_view label, std::string_view colour, std::string_view text);
+  /// What is left goes to stdout.
+  void flush();
+  /// Remembers that the reader of stdout has left, which only the write that failed tells.
+  void note_reader();
 
   std::string command_line_;
   const std::atomic<bool>& stop_;
   int width_;
   int live_width_;
   ProgressLine progress_;
+  bool reader_has_left_ = false;
 };
 
 /// One word of a command line, quoted for a shell where it must be.

@@ -84,7 +84,7 @@ int run_demo(const DemoSettings& settings, Console& console) {
   console.talk("Virtual test bench: " + damper.damper + "\n  " + damper.source + '\n');
   const auto statement =
       write_campaign(run_campaign(campaign, damper), damper,
-                     settings.results.folder + "/recordings", console.command_line());
+                     settings.results.folder + "/recordings", console.command_line(), {});
   // From here on as with real recordings: the files are all there is.
   const Dataset dataset = load_recordings({.paths = {statement.string()}, .load = {}}, console);
 
@@ -107,7 +107,7 @@ int run_demo(const DemoSettings& settings, Console& console) {
       rank(models.names, dataset, leave_out, identify_options(fit, models.names, console));
   ranking.budget = models.budget;
 
-  const ReportInput input = report_input(dataset, ranking, console);
+  const ReportInput input = report_input(dataset, ranking, settings.results.units, console);
   const Document report = ranking_document(input);
   print_results(report, ranking, console);
 

@@ -16,6 +16,7 @@
 #include "document_text.h"
 #include "results.h"
 #include "traces.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -26,7 +27,7 @@ struct EvaluateSettings {
   std::string force_offset = "record";
   std::string outside_family = "mark";
   std::string report;
-  std::string traces;
+  std::string traces, units;
   std::string folder = "dashpot-traces";
   int threads = 0;
 };
@@ -60,6 +61,7 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
 
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
   require_page(settings.report);
+  const PrintUnits csv_units = file_units(settings.units);
   ModelFile file = load_model(settings.model);
   if (const auto* family = model_as<FamilyModel>(*file.model);
       family && settings.outside_family == "refuse")
@@ -79,7 +81,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   Value data = evaluation_json(file, evaluation, outside);
   data.add("records_seen", seen_records(file.provenance, dataset));
   const Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
-  Document document = evaluation_document(report_input(dataset, ranking, console));
+  Document document = evaluation_document(report_input(dataset, ranking, settings.units, console));
   document.data = std::move(data);
   const bool is_infinite = evaluation.diverged == 0 && !std::isfinite(evaluation.pooled.rmse);
   if (is_infinite)
@@ -103,8 +105,8 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     console.print("\nReport  " + settings.report + '\n');
   }
   if (!settings.traces.empty()) {
-    const std::size_t written =
-        write_traces(evaluation.records, dataset.drive_unit, settings.traces, settings.folder);
+    const std::size_t written = write_traces(evaluation.records, dataset.drive_unit,
+                                             settings.traces, csv_units, settings.folder);
     console.print(fmt::format("\nTraces  {}/ ({})\n", settings.folder,
                               counted(written, settings.traces == "raw" ? "record" : "file")));
   }
@@ -150,6 +152,7 @@ Command evaluate_command() {
         .value = "MODE",
         .choices = {"record", "none"}},
 
+       units_option(settings->units),
        {.names = "--report",
         .target = &settings->report,
         .help = "also write a report page, printed where FILE ends in .pdf",

@@ -17,8 +17,10 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/fmu/fmu.h"
 #include "dashpot/export/tables/force_map.h"
 #include "export_control.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -28,7 +30,8 @@ struct ExportSettings {
   VehicleChoice vehicle;
   std::vector<std::string> formats;
   std::string name, precision, sample_time, folder = "dashpot-export", compiler;
-  std::string velocities, currents;
+  std::string velocities, currents, units;
+  std::vector<std::string> platforms;
   bool sources_only = false, tunable = false;
 };
 
@@ -207,6 +210,36 @@ void require_tables(const ExportSettings& settings) {
           return std::ranges::find(kTables, format) != kTables.end();
         }))
       throw UsageError(option, "is the grid of tables", "with --to tables, carsim or dpr");
+
+  // The other layouts have the units of their programs.
+  if (!settings.units.empty() &&
+      std::ranges::find(settings.formats, "tables") == settings.formats.end())
+    throw UsageError("--units", "are of tables", "with --to tables");
+}
+
+std::vector<std::string> platform_names() {
+  std::vector<std::string> names;
+  for (const FmuPlatform& platform : fmu_platforms()) names.emplace_back(platform.name);
+  return names;
+}
+
+/// Binaries are of FMUs alone.
+void require_fmus(const ExportSettings& settings) {
+  if (settings.platforms.empty()) return;
+  if (settings.sources_only)
+    throw UsageError("--platforms", "are of binaries, and --sources-only wants none",
+                     "leave one of them out");
+  if (std::ranges::none_of(settings.formats,
+                           [](const std::string& format) { return format.starts_with("fmu"); }))
+    throw UsageError("--platforms", "are of the binaries in an FMU",
+                     "with --to fmu2 or fmu3; what --to c writes is compiled by any C compiler");
+}
+
+Option table_units_option(std::string& units) {
+  Option option = units_option(units);
+  option.help = "units of --velocities and of the CSV files of tables, as lbf,in/s";
+  option.default_text = "mm/s; in the files SI";
+  return option;
 }
 
 void require_tunable_formats(const ExportSettings& settings) {
@@ -222,6 +255,7 @@ int run_export(const ExportSettings& settings, Console& console) {
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
   require_tunable_formats(settings);
+  require_fmus(settings);
 
   require_tables(settings);
 
@@ -235,8 +269,11 @@ int run_export(const ExportSettings& settings, Console& console) {
       .settable_parameters = settings.tunable,
       .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
       .sources_only = settings.sources_only,
-      .velocities = grid_of(settings.velocities, "--velocities", 1e-3),
+      .platforms = settings.platforms,
+      .velocities = grid_of(settings.velocities, "--velocities",
+                            1 / page_units(settings.units).of("m/s").factor),
       .currents = grid_of(settings.currents, "--currents", 1),
+      .units = settings.units,
       .command = console.command_line(),
       .version = DASHPOT_VERSION};
 
@@ -297,6 +334,7 @@ Command export_command() {
                     .help = "currents (or voltages) of tables, likewise",
                     .value = "A,...",
                     .default_text = "11 over the model's data"},
+                   table_units_option(settings->units),
                    {.names = "--tunable",
                     .target = &settings->tunable,
                     .help = "C whose parameters stand behind the state and may be set while it "
@@ -309,6 +347,13 @@ Command export_command() {
                     .help = "C compiler for the binary in an FMU, and more arguments for it",
                     .value = "CC",
                     .default_text = "$CC, or cc"},
+                   {.names = "--platforms",
+                    .target = &settings->platforms,
+                    .help = "binaries of an FMU; others than this machine's need cross compilers",
+                    .value = "PLATFORM",
+                    .choices = platform_names(),
+                    .noun = "platform",
+                    .default_text = "this machine's"},
                    {.names = "--sources-only",
                     .target = &settings->sources_only,
                     .help = "an FMU without a binary, for an importer that compiles"},

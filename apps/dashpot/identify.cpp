@@ -93,7 +93,7 @@ int run_identify(const IdentifySettings& asked, Console& console) {
   ride_models(ranking, data.dataset, ride, console);
 
   // One document behind the terminal, the folder of results and JSON.
-  const ReportInput input = report_input(data.dataset, ranking, console);
+  const ReportInput input = report_input(data.dataset, ranking, settings.results.units, console);
   const Document report = ranking_document(input);
   print_results(report, ranking, console);
   write_results(input, report, settings.results, console);

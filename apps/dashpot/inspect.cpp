@@ -13,6 +13,7 @@
 #include "data.h"
 #include "document_text.h"
 #include "results.h"
+#include "units.h"
 
 namespace fs = std::filesystem;
 
@@ -21,7 +22,7 @@ namespace {
 
 struct InspectSettings {
   DataSettings data;
-  std::string folder, statement, correct, set, samples;
+  std::string folder, statement, correct, set, samples, units;
 };
 
 constexpr std::string_view kInspectExample =
@@ -90,6 +91,7 @@ int run_inspect(const InspectSettings& settings, Console& console) {
   if (!settings.statement.empty() && fs::exists(settings.statement))
     throw Error(settings.statement, "is there already, and may hold corrections",
                 "write to another name, or remove it first");
+  const PrintUnits units = page_units(settings.units);
   LoadOptions options = settings.data.load;
   options.monitor = console.monitor();
   const Dataset dataset =
@@ -98,8 +100,8 @@ int run_inspect(const InspectSettings& settings, Console& console) {
 
   // A measured velocity is compared with the derived one: a wrong sign or unit shows there.
   const std::vector<VelocityCheck> checks = check_velocities(dataset, options.velocity_cutoff_hz);
-  const Document document =
-      inspection_document({dataset, checks, console.command_line(), DASHPOT_VERSION, date_now()});
+  const Document document = inspection_document(
+      {dataset, checks, console.command_line(), DASHPOT_VERSION, date_now(), units});
 
   print_document(document, console);
 
@@ -147,7 +149,8 @@ Command inspect_command() {
        .help = "also write what was understood as a dataset file, to be corrected and used",
        .value = "FILE"});
   append(command.options,
-         {{.names = "--correct",
+         {units_option(settings->units),
+          {.names = "--correct",
            .target = &settings->correct,
            .help = "write what --set says of this file of the folder DATA into DATA/dataset.yaml",
            .value = "FILE"},

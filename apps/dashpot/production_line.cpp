@@ -119,7 +119,7 @@ int record_line(const LineSettings& line, const CampaignSettings& campaign, cons
         1 + line.trend * static_cast<double>(k) / static_cast<double>(line.dampers);
     for (Record& record : recorded.records) spoil(record, faults[k], growth, half_span);
     write_campaign(recorded, built, folder / fmt::format("unit-{:06}", k + 1),
-                   console.command_line());
+                   console.command_line(), campaign.units);
   });
 
   // The truth that nobody has of a real line.

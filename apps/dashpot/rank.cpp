@@ -117,7 +117,7 @@ int run_rank(const RankSettings& settings, Console& console) {
   }
   ranking.budget = models.budget;
   ride_models(ranking, data.dataset, ride, console);
-  const ReportInput input = report_input(data.dataset, ranking, console);
+  const ReportInput input = report_input(data.dataset, ranking, asked.results.units, console);
 
   // The leaderboard is printed; the report that is written has each model in full.
   const Document leaderboard = leaderboard_document(input);

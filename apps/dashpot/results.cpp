@@ -12,6 +12,7 @@
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "traces.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -37,6 +38,7 @@ std::vector<Option> result_options(ResultSettings& settings) {
        .help = "folder for the report and the model files",
        .value = "DIR",
        .takes = Takes::Folder},
+      units_option(settings.units),
       figures_option(settings.figures),
       {.names = "--pdf",
        .target = &settings.pdf,
@@ -70,15 +72,19 @@ void tell_dropped(std::size_t count, const fs::path& file, Console& console) {
       "; is the disk sound?");
 }
 
-ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console) {
+ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const std::string& units,
+                         const Console& console) {
   return {.dataset = dataset,
           .ranking = ranking,
           .command = console.command_line(),
           .version = DASHPOT_VERSION,
           .date = date_now(),
-          .program = [](const ModelFile& file) {
-            return js_program(exported_model(file), {.version = DASHPOT_VERSION});
-          }};
+          .program =
+              [](const ModelFile& file) {
+                return js_program(exported_model(file), {.version = DASHPOT_VERSION});
+              },
+          .units = page_units(units),
+          .file_units = file_units(units)};
 }
 
 void print_results(const Document& report, const Ranking& ranking, Console& console) {
@@ -91,6 +97,7 @@ void print_results(const Document& report, const Ranking& ranking, Console& cons
 void prepare_results(const ResultSettings& settings) {
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
   if (settings.pdf) require_page("report.pdf");
+  page_units(settings.units);
   const fs::path models = fs::path(settings.folder) / "models";
   make_folder(models);
   for (const fs::path& folder : {fs::path(settings.folder), models})
@@ -151,7 +158,7 @@ void write_kit(const ReportInput& input, const KitSettings& kit, const ResultSet
                                         std::pair{"training", &ranked.training.records}}) {
       console.check_stop();
       if (std::ranges::any_of(*records, [](const RecordResult& r) { return !r.time.empty(); }))
-        written += write_traces(*records, input.dataset.drive_unit, kit.traces,
+        written += write_traces(*records, input.dataset.drive_unit, kit.traces, input.file_units,
                                 folder / "traces" / ranked.name / part);
     }
   }

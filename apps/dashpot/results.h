@@ -19,6 +19,7 @@ struct ResultSettings {
   bool report = true;
   bool pdf = false;
   bool figures = false;
+  std::string units = {};  ///< of --units
 };
 
 std::vector<Option> result_options(ResultSettings& settings);
@@ -64,7 +65,8 @@ std::unique_ptr<FitStore> kept_fits(const std::filesystem::path& folder, Console
 /// Says, where there are any, that kept results were damaged and are made again.
 void tell_dropped(std::size_t count, const std::filesystem::path& file, Console& console);
 
-/// Input of a report, with the command line and today as its date.
-ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);
+/// Input of a report, with the command line, today as its date, and the stated units.
+ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const std::string& units,
+                         const Console& console);
 
 }  // namespace dashpot::cli

@@ -9,6 +9,7 @@
 #include "dashpot/report/simulation_document.h"
 #include "document_text.h"
 #include "study_results.h"
+#include "units.h"
 #include "vehicle_options.h"
 #include "vehicle_sheet.h"
 
@@ -21,7 +22,7 @@ struct SimulateSettings {
   VehicleChoice vehicle;
   RoadChoice road;
   StudyResults results;
-  std::string list, against, samples;
+  std::string list, against, samples, units;
   double allowed_outside = 5, tolerance = 1e-6, step = 0;  // %, 1, ms
   bool mat = false;
 };
@@ -69,7 +70,10 @@ void write_trace(const SimulateSettings& settings, const SimulatedRun& run, cons
                  Console& console) {
   const fs::path file =
       fs::path(settings.results.folder) / (name + (settings.mat ? ".mat" : ".csv"));
-  (settings.mat ? save_mat : save_csv)(run.trace.record, file);
+  if (settings.mat)
+    save_mat(run.trace.record, file);
+  else
+    save_csv(run.trace.record, file, file_units(settings.units));
   console.print("Trace    " + file.string() + '\n');
 }
 
@@ -79,10 +83,13 @@ int run_simulate(const SimulateSettings& settings, Console& console) {
     return kDone;
   }
 
+  const PrintUnits units = page_units(settings.units);
+
   // A folder that cannot be written is found out before the run, not after it.
   if (!settings.results.folder.empty()) prepare_study(settings.results);
   const Simulation simulation = simulate_choice(settings, console);
-  const Document document = simulation_document(simulation);
+  Document document = simulation_document(simulation);
+  document.units = units;
   const Value data = simulation_json(simulation);
 
   // What programs draw: the run, and the one that it is compared with.
@@ -160,6 +167,7 @@ Command simulate_command() {
         .value = "DIR",
         .takes = Takes::Folder,
         .default_text = "none: only the table"},
+       units_option(settings->units),
        {.names = "--mat",
         .target = &settings->mat,
         .help = "traces as MATLAB files instead of CSV"},

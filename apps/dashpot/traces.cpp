@@ -31,7 +31,8 @@ Option traces_option(std::string& format) {
 }
 
 std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit drive_unit,
-                         const std::string& format, const std::filesystem::path& folder) {
+                         const std::string& format, const PrintUnits& units,
+                         const std::filesystem::path& folder) {
   const std::vector<Record> records = traces(results, drive_unit);
   if (format == "raw") {
     write_sample_columns(records, folder);
@@ -39,10 +40,14 @@ std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit dri
   }
 
   // The place among the records keeps names apart that files cannot tell apart.
-  for (std::size_t k = 0; k < records.size(); ++k)
-    (format == "mat" ? save_mat : save_csv)(
-        records[k],
-        folder / fmt::format("{:03}_{}.{}", k + 1, trace_name(records[k].name), format));
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    const std::filesystem::path file =
+        folder / fmt::format("{:03}_{}.{}", k + 1, trace_name(records[k].name), format);
+    if (format == "mat")
+      save_mat(records[k], file);
+    else
+      save_csv(records[k], file, units);
+  }
   return records.size();
 }
 

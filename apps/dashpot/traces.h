@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "command.h"
+#include "dashpot/base/print_units.h"
 #include "dashpot/evaluate.h"
 
 namespace dashpot::cli {
@@ -12,8 +13,9 @@ namespace dashpot::cli {
 Option traces_option(std::string& format);
 
 /// Motion, drive, and the forces measured, modelled and between them, a file per record and all in
-/// one for "raw". Returns how many records were written.
+/// one for "raw"; `units` are of CSV alone. Returns how many records were written.
 std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit drive_unit,
-                         const std::string& format, const std::filesystem::path& folder);
+                         const std::string& format, const PrintUnits& units,
+                         const std::filesystem::path& folder);
 
 }  // namespace dashpot::cli

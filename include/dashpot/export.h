@@ -42,8 +42,12 @@ struct ExportOptions {
   bool settable_parameters = false;  ///< a law's parameters stand behind its state, not in its code
   std::string compiler = "cc";       ///< for an FMU: a C compiler, and arguments for it
   bool sources_only = false;         ///< for an FMU: without a binary
+  /// For an FMU: linux64, win64, aarch64-linux; empty: this machine's. Others than that need
+  /// Debian's cross compilers.
+  std::vector<std::string> platforms = {};
   /// The grid of tables, m/s and A or V, ascending; empty: over the model's domain.
   std::vector<double> velocities = {}, currents = {};
+  std::string units = {};        ///< of the CSV files of `tables`, as "lbf,in/s"; empty: SI
   std::string command, version;  ///< of Dashpot, as the files name them
 };
 

@@ -157,3 +157,22 @@ TEST_CASE("export says which damper of a family it froze, and refuses what canno
     member->advance({0, 0.001 * (k - 1), 1}, {0, 0.001 * k, 1}, 0.001, state);
   CHECK_CLOSE(std::stod(other.output), member->force({0, 0.05, 1}, state), 1e-12, 0);
 }
+
+TEST_CASE("export says which compiler a platform needs, and what binaries are of") {
+  const TemporaryFolder folder;
+  const std::string words =
+      " export --parameters spencer1997 -o '" + folder.path().string() + "' --to ";
+  const ProgramResult missing =
+      run_program("PATH=/nonexistent " + program_path() + words + "fmu3 --platforms win64");
+  CAPTURE(missing.output);
+  CHECK(missing.exit_code == 1);
+  CHECK(contains(missing.output, "win64: needs the compiler x86_64-w64-mingw32-gcc"));
+  CHECK(contains(missing.output, "apt-get install gcc-mingw-w64-x86-64"));
+  CHECK_FALSE(fs::exists(folder.path() / "modified_bouc_wen_damper_fmi3.fmu"));
+
+  for (const std::string wrong : {"c --platforms win64", "fmu3 --platforms solaris",
+                                  "fmu3 --platforms win64 --sources-only"}) {
+    CAPTURE(wrong);
+    CHECK(run_program(program_path() + words + wrong).exit_code == 2);
+  }
+}

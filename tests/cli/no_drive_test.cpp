@@ -156,3 +156,36 @@ TEST_CASE("leaving out by current says that there is none") {
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "its one drive is constant and unknown"));
 }
+
+TEST_CASE("a level is not written where the drive has no unit, and says what to do") {
+  const TemporaryFolder folder;
+  std::string text = "t_s,x_mm,F_N\n";
+  for (int k = 0; k < 400; ++k) {
+    const double t = 0.005 * k, phase = 6.283185307179586 * t;
+    text += std::to_string(t) + ',' + std::to_string(10 * std::sin(phase)) + ',' +
+            std::to_string(300 * std::cos(phase)) + '\n';
+  }
+  folder.write("run.csv", text);
+  const std::string correct =
+      "inspect '" + folder.path().string() + "' --correct run.csv --set 'level=0.5'";
+
+  // Nothing tells the drive; then the dataset file says that there is none.
+  const ProgramResult unknown = run_dashpot(correct);
+  CAPTURE(unknown.output);
+  CHECK(unknown.exit_code == 1);
+  CHECK(contains(unknown.output, "level: has no effect"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "dataset.yaml"));
+  const std::string entry = "files:\n  - match: run.csv\n";
+  folder.write("dataset.yaml", "drive: none\n" + entry);
+  const ProgramResult none = run_dashpot(correct);
+  CAPTURE(none.output);
+  CHECK(none.exit_code == 1);
+  CHECK(contains(none.output, "beside 'drive: none' in dataset.yaml"));
+
+  // With a unit it has its effect.
+  folder.write("dataset.yaml", "drive: A\n" + entry);
+  const ProgramResult driven = run_dashpot(correct);
+  CAPTURE(driven.output);
+  CHECK(driven.exit_code == 0);
+  CHECK(contains(run_dashpot("inspect '" + folder.path().string() + "'").output, "0.5 A"));
+}

@@ -28,6 +28,30 @@ TEST_CASE("closed and full streams, a reader that leaves") {
   CHECK(fs::exists(results + "/report.html"));
 }
 
+TEST_CASE(
+    "a reader that has left is no full disk, whatever is said on the other stream meanwhile") {
+  // A pipe that nobody reads; the warning of this command comes behind its result.
+  const TemporaryFolder folder;
+  const std::string model = (folder.path() / "fit/models/bingham.json").string(),
+                    data = small_campaign().string();
+  REQUIRE(run_dashpot("identify " + data + " --models bingham --quiet --output " +
+                      (folder.path() / "fit").string())
+              .exit_code == 0);
+  folder.write("read_nothing.py",
+               "import os, subprocess, sys\n"
+               "reader, writer = os.pipe()\n"
+               "os.close(reader)\n"
+               "done = subprocess.run(sys.argv[1:], stdout=writer, stderr=subprocess.PIPE)\n"
+               "print(done.stderr.decode(), 'ended with', done.returncode)\n");
+  const ProgramResult result =
+      run_program("/usr/bin/python3 '" + (folder.path() / "read_nothing.py").string() + "' " +
+                  program_path() + " evaluate '" + model + "' " + data);
+  CAPTURE(result.output);
+  CHECK(contains(result.output, "these errors are no judgement"));
+  CHECK(contains(result.output, "ended with 141"));
+  CHECK_FALSE(contains(result.output, "disk"));
+}
+
 TEST_CASE("no HOME, a German locale, a terminal of 20 columns") {
   const TemporaryFolder folder;
   const std::string rest = program_path() + " identify " + small_campaign().string() +

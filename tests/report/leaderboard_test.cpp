@@ -10,12 +10,17 @@ using namespace dashpot;
 namespace {
 
 std::string leaderboard_text(const ExampleRanking& example, int width) {
-  const DocumentTable table = leaderboard_document(example.input()).sections[0].tables[0];
+  const DocumentTable table = in_units(leaderboard_document(example.input())).sections[0].tables[0];
   return text_table(table.columns, table.rows, width);
 }
 
 std::string breakdown_text(const ExampleRanking& example, int width) {
-  const DocumentTable table = breakdown_table(example.ranking, DriveUnit::Ampere);
+  Document document;
+  document.sections.push_back({.name = "breakdown",
+                               .title = {},
+                               .paragraphs = {},
+                               .tables = {breakdown_table(example.ranking, DriveUnit::Ampere)}});
+  const DocumentTable table = in_units(document).sections[0].tables[0];
   return text_table(table.columns, table.rows, width);
 }
 

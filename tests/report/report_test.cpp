@@ -7,6 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/inspection.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/words.h"
 #include "report/example_ranking.h"
@@ -113,7 +114,7 @@ TEST_CASE("verdict: the winner, its worst record, the next, and who diverged") {
   models[0].left_out.pooled.rmse = 41.26;
   models[0].left_out.worst_esr = 7.123;
   models[1].left_out.pooled.esr = 3.63;
-  CHECK(verdict(example.ranking) ==
+  CHECK(in_units(verdict(example.ranking), {}) ==
         "Modified Bouc-Wen (Spencer) predicts the force best: on recordings that it has not seen "
         "it leaves "
         "2.0 % of "
@@ -241,7 +242,8 @@ TEST_CASE("the one-step note names models that feed force back, or says that the
 TEST_CASE("ranking table: best first, within the terminal") {
   const ExampleRanking example = example_ranking();
   for (const int width : {80, 100, 160}) {
-    const DocumentTable whole = ranking_document(example.input()).sections.front().tables.front();
+    const DocumentTable whole =
+        in_units(ranking_document(example.input())).sections.front().tables.front();
     const std::string table = text_table(whole.columns, whole.rows, width);
     CAPTURE(table);
     const auto lines = split(table, '\n');

@@ -149,6 +149,25 @@ Members stated_entry(const std::string& text, const std::string& file) {
   return Members(nullptr);
 }
 
+/// Without a unit of the drive a level says nothing, and would be written without effect.
+void require_drive(const std::string& text, const Dataset& dataset,
+                   const std::vector<Correction>& corrections) {
+  if (std::ranges::find(corrections, "level", &Correction::first) == corrections.end()) return;
+  const Value root = text.empty() ? Value() : parse_yaml(text, "dataset.yaml");
+  const Value* stated = root.kind() == Value::Kind::Object ? root.find("drive") : nullptr;
+  const bool is_none = stated
+                           ? stated->kind() == Value::Kind::String && stated->as_string() == "none"
+                           : dataset.drive_unit == DriveUnit::None;
+  if (is_none)
+    throw Error("level",
+                stated ? "has no effect beside 'drive: none' in dataset.yaml"
+                       : "has no effect: no record tells whether the drive is a current "
+                         "or a voltage",
+                stated ? "write 'drive: A' or 'drive: V' there first"
+                       : "have a dataset file written (--write-dataset), and say 'drive: A' or "
+                         "'drive: V' in it first");
+}
+
 /// JSON on one line, which is YAML.
 std::string flow(const Value& value) {
   std::string text = format_json(value, false);
@@ -256,6 +275,8 @@ std::string corrected_statement(const std::string& text, const Dataset& dataset,
   const auto source = std::ranges::find_if(dataset.files, [&](const SourceFile& one) {
     return fs::path(one.path).lexically_normal() == path;
   });
+
+  require_drive(text, dataset, corrections);
 
   // What was understood of the file, and over it what the text says of it already.
   const bool is_understood = source != dataset.files.end();

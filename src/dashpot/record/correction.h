@@ -26,8 +26,8 @@ std::vector<Correction> parse_corrections(const std::string& text);
 ///     leaves files that come later to be understood by themselves
 ///   dataset: the recordings as that text reads them; folder: the folder they were loaded from
 ///   file: relative to the folder, "recordings/run3.csv"
-/// Throws Error where the file gave no record, on a correction that is unknown, and where the
-/// entries of the text are not written one below the other.
+/// Throws Error where the file gave no record, on a correction that is unknown, on a level where
+/// the drive has no unit, and where the entries of the text are not written one below the other.
 std::string corrected_statement(const std::string& text, const Dataset& dataset,
                                 const std::filesystem::path& folder, const std::string& file,
                                 const std::vector<Correction>& corrections);

@@ -1,9 +1,10 @@
+#include "dashpot/record/describe.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "dashpot/base/text.h"
-#include "dashpot/dataset.h"
 #include "dashpot/record/doubts.h"
 
 namespace dashpot {
@@ -107,12 +108,12 @@ std::string range(const Record& record, std::string_view channel, double scale) 
   return format_number(*low * scale) + "..." + format_number(*high * scale);
 }
 
-std::string fastest(const Record& record) {
+std::string fastest(const Record& record, double scale) {
   const Channel* velocity = record.find("velocity");
   if (!velocity) return "-";
   double most = 0;
   for (const double v : velocity->samples) most = std::max(most, std::abs(v));
-  return format_number(most, 3);
+  return format_number(scale * most, 3);
 }
 
 std::string drive(const Record& record, DriveUnit unit) {
@@ -132,9 +133,11 @@ std::string step(const Record& record) {
   return record.sample_time > 0 ? format_number(record.sample_time * 1e3, 5) : "varies";
 }
 
-std::string record_table(const Dataset& dataset) {
+std::string record_table(const Dataset& dataset, const PrintUnits& units) {
+  const PrintUnit length = units.of("m"), speed = units.of("m/s"), force = units.of("N");
   std::vector<Row> rows{{"record", "condition", "drive", "samples", "step ms", "length s",
-                         "displacement mm", "speed m/s", "force N"}};
+                         "displacement " + length.name, "speed " + speed.name,
+                         "force " + force.name}};
   const bool has_roles = std::ranges::any_of(
       dataset.records, [](const Record& record) { return !role(record).empty(); });
   if (has_roles) rows.front().push_back("role");
@@ -142,8 +145,8 @@ std::string record_table(const Dataset& dataset) {
     rows.push_back({record.name, record.condition, drive(record, dataset.drive_unit),
                     std::to_string(record.size()), step(record),
                     format_number(record.time.back() - record.time.front()),
-                    range(record, "displacement", 1e3), fastest(record),
-                    range(record, "force", 1)});
+                    range(record, "displacement", length.factor), fastest(record, speed.factor),
+                    range(record, "force", force.factor)});
     if (has_roles) rows.back().push_back(role(record));
   }
   return align_in_parts(rows);
@@ -213,7 +216,9 @@ std::string note_list(const Dataset& dataset) {
 
 }  // namespace
 
-std::string describe(const Dataset& dataset) {
+std::string describe(const Dataset& dataset) { return describe(dataset, PrintUnits()); }
+
+std::string describe(const Dataset& dataset, const PrintUnits& units) {
   const std::size_t records = dataset.records.size(), files = dataset.files.size();
   std::string out = dataset.name + ": " + std::to_string(records) +
                     (records == 1 ? " record from " : " records from ") + std::to_string(files) +
@@ -228,7 +233,7 @@ std::string describe(const Dataset& dataset) {
     rows.insert(rows.end(), group.rows.begin(), group.rows.end());
     out.append("\n").append(align(rows));
   }
-  out.append("\n").append(record_table(dataset)).append(note_list(dataset));
+  out.append("\n").append(record_table(dataset, units)).append(note_list(dataset));
   return out;
 }
 

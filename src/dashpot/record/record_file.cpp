@@ -14,15 +14,19 @@ constexpr int kTimeDigits = 12, kDigits = 9;
 
 }  // namespace
 
-void save_csv(const Record& record, const fs::path& path) {
+void save_csv(const Record& record, const fs::path& path, const PrintUnits& units) {
   std::string text = "time [s]";
-  for (const Channel& channel : record.channels)
-    text += ',' + csv_field(channel.name + " [" + channel.unit + ']');
+  std::vector<double> factors;
+  for (const Channel& channel : record.channels) {
+    const PrintUnit unit = units.of(channel.unit);
+    factors.push_back(unit.factor);
+    text += ',' + csv_field(channel.name + " [" + unit.name + ']');
+  }
   text += '\n';
   for (std::size_t k = 0; k < record.size(); ++k) {
     text += format_number(record.time[k], kTimeDigits);
-    for (const Channel& channel : record.channels)
-      text += ',' + format_number(channel.samples[k], kDigits);
+    for (std::size_t c = 0; c < factors.size(); ++c)
+      text += ',' + format_number(factors[c] * record.channels[c].samples[k], kDigits);
     text += '\n';
   }
   write_file(path, text);

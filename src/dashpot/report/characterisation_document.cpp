@@ -11,31 +11,26 @@
 #include "dashpot/record/cycle_figures.h"
 #include "dashpot/report/column_table.h"
 #include "dashpot/report/provenance.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
 namespace {
 
-constexpr double kMilli = 1000;  // m -> mm
 constexpr double kCelsius = 273.15;
 constexpr double kPointsOfLoops = 120000;
 constexpr std::size_t kRowsInBrief = 24;
 
-/// Without an exponent up to a million, as people write forces.
-std::string plain_text(double value, int digits) {
-  return std::abs(value) >= 1000 && std::abs(value) < 1e6 ? fmt::format("{:.0f}", value)
-                                                          : number_text(value, digits);
-}
+std::string force_text(double newton) { return plain_quantity(newton, "N", 4); }
+std::string speed_text(double speed) { return quantity(speed, "m/s"); }
 
-std::string force_text(double newton) { return plain_text(newton, 4); }
-std::string speed_text(double speed) { return number_text(kMilli * speed, 3); }
-
-/// "412 ± 3"; the number alone without an error, a dash where it cannot be told.
-std::string estimate_text(const Measured& estimate, double factor = 1, int digits = 3) {
+/// "412 ± 3"; the number alone without an error, a dash where it cannot be told. `si_unit`: "1" of
+/// a number that has none.
+std::string estimate_text(const Measured& estimate, std::string_view si_unit, int digits = 3) {
   if (!estimate.is_told()) return "-";
-  const std::string value = plain_text(factor * estimate.value, digits);
-  return std::isfinite(estimate.error) ? value + " ± " + number_text(factor * estimate.error, 2)
+  const std::string value = plain_quantity(estimate.value, si_unit, digits);
+  return std::isfinite(estimate.error) ? value + " ± " + quantity(estimate.error, si_unit, 2)
                                        : value;
 }
 
@@ -53,11 +48,11 @@ DocumentTable level_table(const Characterisation& all) {
   DocumentTable table{.title = {},
                       .columns = {{"Drive"},
                                   {"Speeds", true, 3},
-                                  {"mm/s", true, 4},
-                                  {"Friction N", true},
-                                  {"Yield N", true},
-                                  {"Gas N", true, 1},
-                                  {"Rate N/mm", true, 2},
+                                  {unit_name("m/s"), true, 4},
+                                  {"Friction " + unit_name("N"), true},
+                                  {"Yield " + unit_name("N"), true},
+                                  {"Gas " + unit_name("N"), true, 1},
+                                  {"Rate " + unit_name("N/m"), true, 2},
                                   {"Knee reb.", true},
                                   {"Knee compr.", true},
                                   {"From", false, 5}},
@@ -68,15 +63,16 @@ DocumentTable level_table(const Characterisation& all) {
     table.rows.push_back(
         {level_name(level, all.drive_unit), std::to_string(level.speeds.size()),
          speed_text(level.speeds.front().speed) + " ... " + speed_text(level.speeds.back().speed),
-         estimate_text(level.friction), estimate_text(level.yield),
-         estimate_text(level.static_force), estimate_text(level.rate, 1 / kMilli),
-         estimate_text(level.rebound.knee, kMilli), estimate_text(level.compression.knee, kMilli),
+         estimate_text(level.friction, "N"), estimate_text(level.yield, "N"),
+         estimate_text(level.static_force, "N"), estimate_text(level.rate, "N/m"),
+         estimate_text(level.rebound.knee, "m/s"), estimate_text(level.compression.knee, "m/s"),
          level.basis});
 
   table.note =
       "± one standard error. Friction: half of the jump of force between the directions towards "
       "v = 0. Yield: where the lines above the knees meet v = 0, friction and field together. "
-      "Knee: mm/s. Gas: positive pushes the rod out; holds the zero of the load cell.";
+      "Knee: " +
+      unit_name("m/s") + ". Gas: positive pushes the rod out; holds the zero of the load cell.";
   return table;
 }
 
@@ -84,16 +80,16 @@ DocumentTable level_table(const Characterisation& all) {
 DocumentTable speed_table(const Characterisation& all, const std::vector<double>& stated) {
   DocumentTable table{.title = {},
                       .columns = {{"Drive"},
-                                  {"mm/s", true},
+                                  {unit_name("m/s"), true},
                                   {"Cycles", true, 4},
-                                  {"Rebound N", true},
-                                  {"Compr. N", true},
+                                  {"Rebound " + unit_name("N"), true},
+                                  {"Compr. " + unit_name("N"), true},
                                   {"Peak reb.", true, 5},
                                   {"Peak compr.", true, 6},
                                   {"± %", true, 1},
-                                  {"Hyst. N", true, 3},
-                                  {"J/cycle", true, 2},
-                                  {"Ns/m", true, 2}},
+                                  {"Hyst. " + unit_name("N"), true, 3},
+                                  {unit_name("J") + "/cycle", true, 2},
+                                  {unit_name("N*s/m"), true, 2}},
                       .rows = {}};
   for (const LevelFigures& level : all.levels) {
     std::vector<SpeedFigures> rows = level.speeds;
@@ -111,9 +107,9 @@ DocumentTable speed_table(const Characterisation& all, const std::vector<double>
                       {force_text(s.rebound.peak_force), s.rebound.peak_force},
                       {force_text(s.compression.peak_force), s.compression.peak_force},
                       {repeat_text(s.repeatability), s.repeatability},
-                      {number_text(s.hysteresis), s.hysteresis},
-                      {number_text(s.energy), s.energy},
-                      {plain_text(s.equivalent_damping, 3), s.equivalent_damping}});
+                      {quantity(s.hysteresis, "N"), s.hysteresis},
+                      {quantity(s.energy, "J"), s.energy},
+                      {plain_quantity(s.equivalent_damping, "N*s/m"), s.equivalent_damping}});
   }
 
   // A terminal shows a spread of a long table.
@@ -124,29 +120,24 @@ DocumentTable speed_table(const Characterisation& all, const std::vector<double>
   table.note =
       "Rebound, Compr.: force in the middle of the stroke. Peak: the greatest of the cycle. ± %: "
       "standard deviation between cycles of a record. Hyst.: how much more force at half speed "
-      "while speed falls. Ns/m: the dashpot that takes out as much energy.";
+      "while speed falls. " +
+      unit_name("N*s/m") + ": the dashpot that takes out as much energy.";
   return table;
 }
 
 DocumentTable range_table(const Characterisation& all) {
-  const std::string unit = to_string(all.drive_unit);
-  DocumentTable table{.title = {},
-                      .columns = {{"mm/s", true},
-                                  {"N at " + level_name(all.levels.front(), all.drive_unit), true},
-                                  {"N at " + level_name(all.levels.back(), all.drive_unit), true},
-                                  {"Ratio", true}},
-                      .rows = {}};
+  DocumentTable table{
+      .title = {},
+      .columns = {{unit_name("m/s"), true},
+                  {unit_name("N") + " at " + level_name(all.levels.front(), all.drive_unit), true},
+                  {unit_name("N") + " at " + level_name(all.levels.back(), all.drive_unit), true},
+                  {"Ratio", true}},
+      .rows = {}};
   for (const DynamicRange& r : all.range)
     table.rows.push_back({speed_text(r.speed), force_text(r.lowest_force),
                           force_text(r.highest_force), number_text(r.ratio)});
   table.note = "Half of the difference of the mid-stroke forces of both directions.";
   return table;
-}
-
-/// "12", or "8 ... 12" where the least and the greatest differ as they are printed.
-std::string range_text(double least, double greatest, int digits) {
-  const std::string low = number_text(least, digits), high = number_text(greatest, digits);
-  return low == high ? low : low + " ... " + high;
 }
 
 std::vector<std::string> record_row(const RecordFigures& r) {
@@ -158,21 +149,21 @@ std::vector<std::string> record_row(const RecordFigures& r) {
 
   return {r.name,
           std::to_string(r.cycles.size()),
-          range_text(kMilli * shortest.stroke, kMilli * longest.stroke, 3),
+          quantity_range(shortest.stroke, longest.stroke, "m"),
           range_text(1 / slowest.duration, 1 / quickest.duration, 3),
-          range_text(kMilli * speed(least), kMilli * speed(most), 3),
+          quantity_range(speed(least), speed(most), "m/s"),
           repeat_text(r.repeatability),
           change_text(r.drift),
-          estimate_text(r.fade, 1, 2)};
+          estimate_text(r.fade, "1", 2)};
 }
 
 DocumentTable record_sheet(const Characterisation& all) {
   DocumentTable table{.title = {},
                       .columns = {{"Record", false, 0, true},
                                   {"Cycles", true},
-                                  {"Stroke mm", true, 3},
+                                  {"Stroke " + unit_name("m"), true, 3},
                                   {"Hz", true, 4},
-                                  {"mm/s", true, 2},
+                                  {unit_name("m/s"), true, 2},
                                   {"Repeats to %", true},
                                   {"Drift %", true},
                                   {"Fade %/K", true, 1}},
@@ -234,16 +225,26 @@ std::string drive_colour(std::size_t level, std::size_t count) {
   return fmt::format("level-{}-{}", level + 1, count);
 }
 
-FigurePanel blank_panel(const std::string& title, const std::string& x, const std::string& y,
-                        int height = 320) {
-  return {.title = title, .x_label = x, .y_label = y, .series = {}, .height = height};
+struct Axis {
+  std::string label, si_unit;
+};
+
+FigurePanel blank_panel(const std::string& title, const Axis& x, const Axis& y, int height = 320) {
+  return {.title = title,
+          .x_label = x.label,
+          .y_label = y.label,
+          .series = {},
+          .height = height,
+          .x_unit = x.si_unit,
+          .y_unit = y.si_unit};
 }
 
 /// Force over speed of every level, both directions.
 DocumentFigure curve_figure(const Characterisation& all) {
-  FigurePanel middle = blank_panel("Force at mid stroke", "Velocity (mm/s)", "Force (N)"),
+  const Axis newtons{"Force", "N"};
+  FigurePanel middle = blank_panel("Force at mid stroke", {"Velocity", "m/s"}, newtons),
               peak =
-                  blank_panel("Greatest force of a cycle", "Greatest velocity (mm/s)", "Force (N)");
+                  blank_panel("Greatest force of a cycle", {"Greatest velocity", "m/s"}, newtons);
   for (std::size_t k = 0; k < all.levels.size(); ++k) {
     const LevelFigures& level = all.levels[k];
     const std::string label = level_name(level, all.drive_unit),
@@ -252,14 +253,14 @@ DocumentFigure curve_figure(const Characterisation& all) {
                          double StrokeFigures::* force) {
       FigureSeries line{.label = label, .colour = colour, .x = {}, .y = {}};
       for (auto s = level.speeds.rbegin(); s != level.speeds.rend(); ++s) {
-        line.x.push_back(-kMilli * (s->compression.*speed));
+        line.x.push_back(-(s->compression.*speed));
         line.y.push_back(s->compression.*force);
       }
       // Between the slowest cycles of the directions nothing was measured.
       line.x.push_back(kNoNumber);
       line.y.push_back(kNoNumber);
       for (const SpeedFigures& s : level.speeds) {
-        line.x.push_back(kMilli * (s.rebound.*speed));
+        line.x.push_back(s.rebound.*speed);
         line.y.push_back(s.rebound.*force);
       }
       FigureSeries dots = line;
@@ -279,10 +280,10 @@ DocumentFigure curve_figure(const Characterisation& all) {
 /// Loops of all cycles of the chosen record.
 std::vector<DocumentFigure> loop_figures(const CharacterisationInput& input,
                                          std::vector<SharedSamples>& samples) {
-  FigurePanel velocity = blank_panel("Force over velocity", "Velocity (mm/s)", "Force (N)"),
-              displacement =
-                  blank_panel("Force over displacement", "Displacement (mm)", "Force (N)"),
-              time = blank_panel("Force over time", "Time (s)", "Force (N)", 240);
+  const Axis force{"Force", "N"};
+  FigurePanel velocity = blank_panel("Force over velocity", {"Velocity", "m/s"}, force),
+              displacement = blank_panel("Force over displacement", {"Displacement", "m"}, force),
+              time = blank_panel("Force over time", {"Time (s)", ""}, force, 240);
   const auto points = static_cast<std::size_t>(
       kPointsOfLoops / static_cast<double>(std::max<std::size_t>(1, input.dataset.records.size())));
 
@@ -299,17 +300,17 @@ std::vector<DocumentFigure> loop_figures(const CharacterisationInput& input,
     // As few samples as the eye needs, the same of every channel.
     const std::vector<std::size_t> chosen =
         thinned_indices({c.time, c.displacement, c.velocity, c.force}, points);
-    const auto keep = [&](std::span<const double> values, double factor, bool is_exact = false) {
-      SharedSamples shared{{}, is_exact};
-      for (const std::size_t i : chosen) shared.values.push_back(factor * values[i]);
+    const auto keep = [&](std::span<const double> values, const char* si_unit) {
+      SharedSamples shared{{}, si_unit == std::string("s"), si_unit};
+      for (const std::size_t i : chosen) shared.values.push_back(values[i]);
       samples.push_back(std::move(shared));
       return samples.size() - 1;
     };
 
-    const std::size_t f = keep(c.force, 1);
-    for (const auto& [to, x] : {std::pair{&velocity, keep(c.velocity, kMilli)},
-                                {&displacement, keep(c.displacement, kMilli)},
-                                {&time, keep(c.time, 1, true)}})
+    const std::size_t f = keep(c.force, "N");
+    for (const auto& [to, x] : {std::pair{&velocity, keep(c.velocity, "m/s")},
+                                {&displacement, keep(c.displacement, "m")},
+                                {&time, keep(c.time, "s")}})
       to->series.push_back({.label = "measured",
                             .colour = "measured",
                             .x = {},
@@ -329,10 +330,10 @@ std::vector<DocumentFigure> loop_figures(const CharacterisationInput& input,
 /// Damping force cycle by cycle, as a share of its mean at that speed and drive: over the time of
 /// its record and, where there is one, over temperature.
 DocumentFigure drift_figure(const Characterisation& all) {
-  FigurePanel over_time = blank_panel("Over the time of the record", "Time (s)",
-                                      "Damping force (% of its mean)", 280),
-              over_heat = blank_panel("Over temperature", "Temperature (°C)",
-                                      "Damping force (% of its mean)", 280);
+  FigurePanel over_time = blank_panel("Over the time of the record", {"Time (s)", ""},
+                                      {"Damping force (% of its mean)", ""}, 280),
+              over_heat = blank_panel("Over temperature", {"Temperature (°C)", ""},
+                                      {"Damping force (% of its mean)", ""}, 280);
   for (std::size_t k = 0; k < all.levels.size(); ++k) {
     const LevelFigures& level = all.levels[k];
     FigureSeries in_time{.label = level_name(level, all.drive_unit),
@@ -482,17 +483,16 @@ std::string sheet_verdict(const Characterisation& all) {
                                  counted(all.records.size(), "record"));
   if (all.levels.empty()) return text + ", none of them at a steady drive.";
   const LevelFigures& first = all.levels.front();
-  text += fmt::format("; {} ... {} mm/s", speed_text(first.speeds.front().speed),
-                      speed_text(first.speeds.back().speed));
+  text += fmt::format("; {} ... {} {}", speed_text(first.speeds.front().speed),
+                      speed_text(first.speeds.back().speed), unit_name("m/s"));
   if (all.levels.size() > 1) text += ", " + counted(all.levels.size(), "level") + " of drive";
   text += '.';
 
   if (!all.range.empty()) {
     const DynamicRange& widest = *std::ranges::max_element(all.range, {}, &DynamicRange::ratio);
-    text += fmt::format(
-        " The highest drive gives up to {} times the force of the lowest (at {} "
-        "mm/s).",
-        number_text(widest.ratio), speed_text(widest.speed));
+    text +=
+        fmt::format(" The highest drive gives up to {} times the force of the lowest (at {} {}).",
+                    number_text(widest.ratio), speed_text(widest.speed), unit_name("m/s"));
   }
   return text;
 }
@@ -564,7 +564,7 @@ Document characterisation_document(const CharacterisationInput& input) {
   return document;
 }
 
-std::string cycles_csv(const Characterisation& all) {
+std::string cycles_csv(const Characterisation& all, const PrintUnits& units) {
   ColumnTable table{.name = "cycles", .title = "cycles", .columns = {}};
   std::vector<std::string> names;
   std::vector<const CycleFigures*> cycles;
@@ -602,7 +602,7 @@ std::string cycles_csv(const Characterisation& all) {
   add("energy", "J", [](const C& c) { return c.energy; });
   add("equivalent_damping", "N*s/m", [](const C& c) { return c.equivalent_damping; });
   add("temperature", "K", [](const C& c) { return c.temperature; });
-  return csv_table(table);
+  return csv_table(in_units(std::move(table), units));
 }
 
 }  // namespace dashpot

@@ -13,11 +13,11 @@ struct CharacterisationInput {
 };
 
 /// The dyno sheet of a damper: what each level of the drive says, forces over speed, loops, what
-/// changes over time. People see mm, mm/s and N; its data are in SI.
+/// changes over time. Its data are in SI.
 Document characterisation_document(const CharacterisationInput& input);
 
-/// One line per cycle with every figure, in SI.
-std::string cycles_csv(const Characterisation& figures);
+/// One line per cycle with every figure.
+std::string cycles_csv(const Characterisation& figures, const PrintUnits& units = PrintUnits::si());
 
 /// "0.5 A", "every drive" where it is not known.
 std::string level_name(const LevelFigures& level, DriveUnit unit);

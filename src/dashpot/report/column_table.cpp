@@ -7,6 +7,16 @@
 
 namespace dashpot {
 
+ColumnTable in_units(ColumnTable table, const PrintUnits& units) {
+  for (DataColumn& column : table.columns) {
+    const PrintUnit unit = units.of(column.unit);
+    column.unit = unit.name;
+    if (unit.factor != 1)
+      for (double& number : column.numbers) number *= unit.factor;
+  }
+  return table;
+}
+
 std::string csv_table(const ColumnTable& table) {
   std::vector<std::string> titles;
   for (const DataColumn& column : table.columns) {

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/base/print_units.h"
+
 namespace dashpot {
 
 /// A column of numbers or of texts.
@@ -23,6 +25,9 @@ struct ColumnTable {
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
+
+/// Columns of forces and motions, which are in SI, in other units.
+ColumnTable in_units(ColumnTable table, const PrintUnits& units);
 
 /// "sprung_mass[kg]" above numbers that keep all their digits; empty where there is nothing.
 std::string csv_table(const ColumnTable& table);

@@ -12,13 +12,13 @@
 #include "dashpot/record/differences.h"
 #include "dashpot/report/characterisation_document.h"
 #include "dashpot/report/provenance.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
 namespace {
 
-constexpr double kMillimetres = 1000;  // per metre
 constexpr double kPointsOfOverlays = 100000;
 constexpr std::size_t kRowsOfTerminal = 30;
 
@@ -49,7 +49,7 @@ DocumentTable fit_table(const std::vector<ComparedThing>& things) {
   DocumentTable table{.title = {},
                       .columns = {{"Model", false, 0, true},
                                   {"Records", true, 2},
-                                  {"RMSE N", true},
+                                  {"RMSE " + unit_name("N"), true},
                                   {"ESR %", true},
                                   {"Fit %", true},
                                   {"Worst record", false, 1, true},
@@ -62,7 +62,7 @@ DocumentTable fit_table(const std::vector<ComparedThing>& things) {
     const Evaluation& e = *thing.evaluation;
     add_row(table, {{thing.name},
                     {std::to_string(e.records.size())},
-                    {number_text(e.pooled.rmse), e.pooled.rmse},
+                    {quantity(e.pooled.rmse, "N"), e.pooled.rmse},
                     {percent_text(e.pooled.esr), e.pooled.esr},
                     {percent_text(e.pooled.fit), e.pooled.fit},
                     {e.worst_record},
@@ -90,18 +90,19 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
 
   // What a fit did not find is NaN, and has no row.
   for (const LevelDifference& level : levels) {
-    const auto add = [&](const std::string& what, const Difference& d, double factor) {
+    const auto add = [&](const std::string& what, const Difference& d, const char* si_unit) {
       if (!std::isfinite(d.value())) return;
-      table.rows.push_back({drive_name(level.drive, unit), what, number_text(factor * d.first),
-                            number_text(factor * d.second), number_text(factor * d.value()),
-                            number_text(factor * d.noise, 2), clear_text(d)});
+      table.rows.push_back({drive_name(level.drive, unit), what + ' ' + unit_name(si_unit),
+                            quantity(d.first, si_unit), quantity(d.second, si_unit),
+                            quantity(d.value(), si_unit), quantity(d.noise, si_unit, 2),
+                            clear_text(d)});
     };
-    add("friction N", level.friction, 1);
-    add("yield N", level.yield, 1);
-    add("gas N", level.static_force, 1);
-    add("rate N/mm", level.rate, 1 / kMillimetres);
-    add("knee rebound mm/s", level.knee_rebound, kMillimetres);
-    add("knee compr. mm/s", level.knee_compression, kMillimetres);
+    add("friction", level.friction, "N");
+    add("yield", level.yield, "N");
+    add("gas", level.static_force, "N");
+    add("rate", level.rate, "N/m");
+    add("knee rebound", level.knee_rebound, "m/s");
+    add("knee compr.", level.knee_compression, "m/s");
   }
   table.note = "Noise: the standard errors of both. Clear: the difference is more than twice it.";
   shorten(table);
@@ -111,14 +112,14 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
 DocumentTable force_table(const std::vector<LevelDifference>& levels, DriveUnit unit) {
   DocumentTable table{.title = {},
                       .columns = {{"Drive"},
-                                  {"mm/s", true},
+                                  {unit_name("m/s"), true},
                                   {"Rebound", true, 1},
                                   {"Second", true, 1},
                                   {"Compr.", true, 1},
                                   {"Second", true, 1},
-                                  {"Change N", true},
+                                  {"Change " + unit_name("N"), true},
                                   {"Change %", true},
-                                  {"Noise N", true},
+                                  {"Noise " + unit_name("N"), true},
                                   {"Clear"}},
                       .rows = {}};
 
@@ -126,18 +127,19 @@ DocumentTable force_table(const std::vector<LevelDifference>& levels, DriveUnit 
     for (const SpeedDifference& s : level.speeds)
       add_row(table,
               {{drive_name(level.drive, unit), level.drive.value_or(kNoNumber)},
-               {number_text(kMillimetres * s.speed), s.speed},
-               {fmt::format("{:.0f}", s.rebound.first), s.rebound.first},
-               {fmt::format("{:.0f}", s.rebound.second), s.rebound.second},
-               {fmt::format("{:.0f}", s.compression.first), s.compression.first},
-               {fmt::format("{:.0f}", s.compression.second), s.compression.second},
-               {fmt::format("{:+.1f}", s.damping_force.value()), s.damping_force.value()},
+               {quantity(s.speed, "m/s"), s.speed},
+               {fixed_quantity(s.rebound.first, "N", 0), s.rebound.first},
+               {fixed_quantity(s.rebound.second, "N", 0), s.rebound.second},
+               {fixed_quantity(s.compression.first, "N", 0), s.compression.first},
+               {fixed_quantity(s.compression.second, "N", 0), s.compression.second},
+               {signed_quantity(s.damping_force.value(), "N", 1), s.damping_force.value()},
                {fmt::format("{:+.1f}", s.damping_force.percent()), s.damping_force.percent()},
-               {number_text(s.damping_force.noise, 2), s.damping_force.noise},
+               {quantity(s.damping_force.noise, "N", 2), s.damping_force.noise},
                {clear_text(s.damping_force)}});
 
   table.note =
-      "Mid-stroke forces, N. Change: of half of the difference of the directions, which holds no "
+      "Mid-stroke forces, " + unit_name("N") +
+      ". Change: of half of the difference of the directions, which holds no "
       "gas force. Noise: the scatter from cycle to cycle of both. Clear: more than twice it.";
   shorten(table);
   return table;
@@ -146,10 +148,12 @@ DocumentTable force_table(const std::vector<LevelDifference>& levels, DriveUnit 
 /// Peak curves of all things at one level of the drive of the first.
 FigurePanel peak_panel(const std::vector<ComparedThing>& things, const LevelFigures& level) {
   FigurePanel panel{.title = level_name(level, things.front().figures.drive_unit),
-                    .x_label = "Velocity (mm/s)",
-                    .y_label = "Force at mid stroke (N)",
+                    .x_label = "Velocity",
+                    .y_label = "Force at mid stroke",
                     .series = {},
-                    .height = 300};
+                    .height = 300,
+                    .x_unit = "m/s",
+                    .y_unit = "N"};
   double greatest = 0;
   for (const LevelFigures& one : things.front().figures.levels)
     greatest = std::max(greatest, std::abs(one.drive.value_or(0)));
@@ -162,13 +166,13 @@ FigurePanel peak_panel(const std::vector<ComparedThing>& things, const LevelFigu
       // Compression from the quickest on, a gap, rebound to the quickest.
       FigureSeries line{.label = things[k].name, .colour = thing_colour(k), .x = {}, .y = {}};
       for (auto s = other.speeds.rbegin(); s != other.speeds.rend(); ++s) {
-        line.x.push_back(-kMillimetres * s->compression.mid_speed);
+        line.x.push_back(-s->compression.mid_speed);
         line.y.push_back(s->compression.mid_force);
       }
       line.x.push_back(kNoNumber);
       line.y.push_back(kNoNumber);
       for (const SpeedFigures& s : other.speeds) {
-        line.x.push_back(kMillimetres * s.rebound.mid_speed);
+        line.x.push_back(s.rebound.mid_speed);
         line.y.push_back(s.rebound.mid_force);
       }
 
@@ -231,20 +235,25 @@ std::string curve_label(const ComparedThing& thing, std::size_t record) {
 struct OverlayPanels {
   FigurePanel time{.title = "Force over time",
                    .x_label = "Time (s)",
-                   .y_label = "Force (N)",
+                   .y_label = "Force",
                    .series = {},
                    .reads_along_x = true,
-                   .height = 280};
+                   .height = 280,
+                   .y_unit = "N"};
   FigurePanel velocity{.title = "Force over velocity",
-                       .x_label = "Velocity (mm/s)",
-                       .y_label = "Force (N)",
+                       .x_label = "Velocity",
+                       .y_label = "Force",
                        .series = {},
-                       .height = 320};
+                       .height = 320,
+                       .x_unit = "m/s",
+                       .y_unit = "N"};
   FigurePanel displacement{.title = "Force over displacement",
-                           .x_label = "Displacement (mm)",
-                           .y_label = "Force (N)",
+                           .x_label = "Displacement",
+                           .y_label = "Force",
                            .series = {},
-                           .height = 320};
+                           .height = 320,
+                           .x_unit = "m",
+                           .y_unit = "N"};
 };
 
 /// Draws what thing k has to record r of the first one, where it has something.
@@ -264,9 +273,9 @@ void lay_over(const std::vector<ComparedThing>& things, std::size_t r, std::size
   // As few samples as the eye needs, the same of every channel.
   const std::vector<std::size_t> chosen =
       thinned_indices({c.time, c.displacement, c.velocity, c.force}, points);
-  const auto keep = [&](std::span<const double> values, double factor, double offset = 0) {
-    SharedSamples shared{{}, offset != 0};
-    for (const std::size_t i : chosen) shared.values.push_back(factor * values[i] + offset);
+  const auto keep = [&](std::span<const double> values, const char* si_unit, double offset = 0) {
+    SharedSamples shared{{}, offset != 0, si_unit};
+    for (const std::size_t i : chosen) shared.values.push_back(values[i] + offset);
     samples.push_back(std::move(shared));
     return samples.size() - 1;
   };
@@ -275,10 +284,10 @@ void lay_over(const std::vector<ComparedThing>& things, std::size_t r, std::size
   const double shift = things[k].is_model ? 0
                                           : start_of(things.front().figures.records[r]) -
                                                 start_of(things[k].figures.records[*partner]);
-  const std::size_t force = keep(c.force, 1);
-  for (const auto& [panel, x] : {std::pair{&panels.time, keep(c.time, 1, shift)},
-                                 {&panels.velocity, keep(c.velocity, kMillimetres)},
-                                 {&panels.displacement, keep(c.displacement, kMillimetres)}})
+  const std::size_t force = keep(c.force, "N");
+  for (const auto& [panel, x] : {std::pair{&panels.time, keep(c.time, "s", shift)},
+                                 {&panels.velocity, keep(c.velocity, "m/s")},
+                                 {&panels.displacement, keep(c.displacement, "m")}})
     panel->series.push_back({.label = curve_label(things[k], *partner),
                              .colour = thing_colour(k),
                              .x = {},
@@ -361,9 +370,9 @@ std::string difference_sentence(const std::string& name, const std::vector<Level
                            : known == 0
                                ? "with no repeated cycles to say how much of it is noise"
                                : fmt::format("{} of them by more than twice the noise", clear);
-  return fmt::format("{}: {} compared, {}; the most is {:+.1f} % at {} mm/s and {}.", name,
+  return fmt::format("{}: {} compared, {}; the most is {:+.1f} % at {} {} and {}.", name,
                      counted(count, "force"), told, most->damping_force.percent(),
-                     number_text(kMillimetres * most->speed), drive_name(where, unit));
+                     quantity(most->speed, "m/s"), unit_name("m/s"), drive_name(where, unit));
 }
 
 }  // namespace

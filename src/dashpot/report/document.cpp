@@ -252,6 +252,16 @@ Value samples_json(const SharedSamples& samples) {
   return samples.is_exact ? pack_float32(samples.values, all) : pack_int16(samples.values, all);
 }
 
+/// How a page's own programs, which compute in SI, show what they draw.
+Value units_json(const PrintUnits& units) {
+  Value json = Value::object();
+  for (const char* si_unit : {"N", "m", "m/s", "J"}) {
+    const PrintUnit unit = units.of(si_unit);
+    json.add(si_unit, Value::object({{"name", unit.name}, {"factor", unit.factor}}));
+  }
+  return json;
+}
+
 /// All that page/document.js draws; the programs that it runs come to `programs`.
 Value page_json(const Document& document, std::vector<JsText>& programs) {
   const auto to_json = [&](const DocumentSection& section) {
@@ -266,6 +276,7 @@ Value page_json(const Document& document, std::vector<JsText>& programs) {
                      {"sections", parts_json(document.sections, to_json)},
                      {"provenance", to_json(document.provenance)},
                      {"samples", parts_json(document.samples, samples_json)},
+                     {"units", units_json(document.units)},
                      {"command", document.command},
                      {"version", document.version},
                      {"date", document.date}}));
@@ -290,14 +301,16 @@ void add_row(DocumentTable& table, const std::vector<DocumentCell>& cells) {
   table.keys.push_back(std::move(keys));
 }
 
-std::string html_document(const Document& document) {
+std::string html_document(const Document& si) {
+  const Document document = in_units(si);
   std::vector<JsText> programs;
   const Value data = page_json(document, programs);
   return make_page(document.title, document_text(document, 100), data, programs);
 }
 
-Value document_json(const Document& document) {
-  if (!document.data.is_null()) return presentable(document.data);
+Value document_json(const Document& si) {
+  if (!si.data.is_null()) return presentable(si.data);
+  const Document document = in_units(si);
 
   // Cells are given as text, as people read them.
   Value sections = Value::array();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dashpot/base/escape.h"
+#include "dashpot/base/print_units.h"
 #include "dashpot/damper_model.h"
 #include "dashpot/report/text_table.h"
 #include "dashpot/value.h"
@@ -63,6 +64,7 @@ Value conditions_json(const Conditions& conditions);
 struct SharedSamples {
   std::vector<double> values;
   bool is_exact = false;  ///< kept as float32; else to 1/65534 of their range
+  std::string unit = {};  ///< in SI; shown in that of the document
 };
 
 /// Places in Document::samples that a series is made of: y of x, from sample `first` on.
@@ -102,6 +104,9 @@ struct FigurePanel {
   bool reads_along_x = false;            ///< the read-out has every series at one x
   int height = 300;                      ///< px
   std::string empty = {};                ///< stands there when no series has samples
+  /// SI units of the series' own numbers, which stand behind the labels and are shown in those of
+  /// the document; empty: the labels say all.
+  std::string x_unit = {}, y_unit = {};
 };
 
 struct DocumentFigure {
@@ -189,6 +194,9 @@ struct Document {
   /// The last part of a page, below the command.
   DocumentSection provenance = {"provenance", "Provenance", {}};
   std::vector<SharedSamples> samples = {};
+  /// Of every quantity in its words (quantity.h), panels and samples, which are in SI until a
+  /// renderer shows them.
+  PrintUnits units = {};
   Value data = {};  ///< for programs; where there is none they get the words and tables
 };
 
@@ -213,6 +221,9 @@ Value document_json(const Document& document);
 /// Returns the paths. Throws Error when gnuplot is missing.
 std::vector<std::filesystem::path> write_document_figures(const Document& document,
                                                           const std::filesystem::path& folder);
+
+/// The document as people see it: every quantity in the document's units. The renderers do this.
+Document in_units(Document document);
 
 /// Whether a part is shown as the document opens.
 bool is_open(const Document& document, const When& when);

@@ -93,7 +93,8 @@ void draw(GnuplotFigure& figure, const FigurePanel& panel) {
 
 }  // namespace
 
-std::vector<fs::path> write_document_figures(const Document& document, const fs::path& folder) {
+std::vector<fs::path> write_document_figures(const Document& si, const fs::path& folder) {
+  const Document document = in_units(si);
   std::vector<fs::path> paths;
   for (const DocumentSection& section : document.sections)
     for (const DocumentFigure& figure : section.figures) {

@@ -9,8 +9,10 @@ namespace {
 
 class Writer {
  public:
-  Writer(const Document& document, const std::string& figures, int level)
-      : document_(document), figures_(figures), heading_(static_cast<std::size_t>(level), '#') {}
+  Writer(Document document, const std::string& figures, int level)
+      : document_(std::move(document)),
+        figures_(figures),
+        heading_(static_cast<std::size_t>(level), '#') {}
 
   std::string text() {
     text_ = heading_ + " " + markdown_cell(document_.title) + "\n";
@@ -87,7 +89,7 @@ class Writer {
                                     figure.name + ".svg)\n\n" + words + "\n";
   }
 
-  const Document& document_;
+  const Document document_;
   const std::string& figures_;
   const std::string heading_;
   std::string text_;
@@ -96,7 +98,7 @@ class Writer {
 }  // namespace
 
 std::string markdown_document(const Document& document, const std::string& figures, int level) {
-  return Writer(document, figures, level).text();
+  return Writer(in_units(document), figures, level).text();
 }
 
 }  // namespace dashpot

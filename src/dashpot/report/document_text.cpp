@@ -84,8 +84,9 @@ bool is_open(const Document& document, const When& when) {
   });
 }
 
-std::string document_text(const Document& document, int width,
+std::string document_text(const Document& si, int width,
                           const std::function<std::string(std::string_view)>& bold) {
+  const Document document = in_units(si);
   const auto title = [&](const std::string& text) {
     std::string lines;
     for (const std::string& line : wrap(text, static_cast<std::size_t>(width)))

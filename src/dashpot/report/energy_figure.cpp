@@ -62,7 +62,7 @@ std::vector<DocumentFigure> energy_figures(const Ranking& ranking) {
   FigurePanel panel{
       .title = "Energy over a cycle",
       .x_label = "Time (s)",
-      .y_label = "Energy (J)",
+      .y_label = "Energy",
       .series = {},
       .note =
           "Since the start of the widest cycle of the record. What is stored and what "
@@ -70,7 +70,8 @@ std::vector<DocumentFigure> energy_figures(const Ranking& ranking) {
       .height = 300,
       .empty =
           "The energy of this model cannot be told apart: it is no passive "
-          "network."};
+          "network.",
+      .y_unit = "J"};
 
   // A balance for each passive network over each record that a reader can choose.
   const std::vector<ShownRecord> records = shown_records(ranking);

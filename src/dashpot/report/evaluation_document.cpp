@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/residual_section.h"
 
 namespace dashpot {
 namespace {
+
+constexpr int kDigits = 4;  // of errors
 
 std::string percent(double value) { return fmt::format("{:.2f}", value); }
 
@@ -18,25 +21,31 @@ std::vector<std::string> record_row(const RecordResult& r, const std::string& dr
     return {r.record, level, "", "",
             "",       "",    "", "diverged at " + format_number(*r.diverged_at) + " s"};
   const Metrics& m = r.metrics;
-  return {r.record,       level,          format_number(m.rmse),   percent(m.rms_half_span),
-          percent(m.esr), percent(m.fit), percent(r.energy_error), format_number(r.offset, 3)};
+  return {r.record,       level,          quantity(m.rmse, "N", kDigits), percent(m.rms_half_span),
+          percent(m.esr), percent(m.fit), percent(r.energy_error),        quantity(r.offset, "N")};
 }
 
 std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
-  return {name, "", format_number(m.rmse), percent(m.rms_half_span), percent(m.esr), percent(m.fit),
-          "",   ""};
+  return {name,
+          "",
+          quantity(m.rmse, "N", kDigits),
+          percent(m.rms_half_span),
+          percent(m.esr),
+          percent(m.fit),
+          "",
+          ""};
 }
 
 DocumentTable error_table(const Evaluation& evaluation, const std::string& drive_unit) {
   DocumentTable table{.title = {},
                       .columns = {{"record", false, 0, true},
                                   {drive_unit.empty() ? "drive" : drive_unit, true},
-                                  {"RMSE N", true},
+                                  {"RMSE " + unit_name("N"), true},
                                   {"rms/half-span %", true, 3},
                                   {"ESR %", true},
                                   {"fit %", true},
                                   {"energy error %", true, 2},
-                                  {"offset N", true, 1}},
+                                  {"offset " + unit_name("N"), true, 1}},
                       .rows = {}};
 
   // Records, then all samples together.
@@ -51,19 +60,19 @@ DocumentTable error_table(const Evaluation& evaluation, const std::string& drive
 DocumentTable band_table(const Evaluation& evaluation) {
   DocumentTable table{.title = {},
                       .columns = {{"velocity band", false, 0, true},
-                                  {"|v| m/s", true},
+                                  {"|v| " + unit_name("m/s"), true},
                                   {"samples", true, 2},
-                                  {"RMSE N", true},
-                                  {"MAE N", true, 1},
-                                  {"max |e| N", true}},
+                                  {"RMSE " + unit_name("N"), true},
+                                  {"MAE " + unit_name("N"), true, 1},
+                                  {"max |e| " + unit_name("N"), true}},
                       .rows = {}};
 
   // From the pre-yield region to the top speed.
   for (const BandResult& band : evaluation.bands)
-    table.rows.push_back({band.name,
-                          format_number(band.low, 3) + " ... " + format_number(band.high, 3),
-                          std::to_string(band.metrics.samples), format_number(band.metrics.rmse),
-                          format_number(band.metrics.mae), format_number(band.metrics.max_error)});
+    table.rows.push_back(
+        {band.name, quantity(band.low, "m/s") + " ... " + quantity(band.high, "m/s"),
+         std::to_string(band.metrics.samples), quantity(band.metrics.rmse, "N", kDigits),
+         quantity(band.metrics.mae, "N", kDigits), quantity(band.metrics.max_error, "N", kDigits)});
   return table;
 }
 
@@ -94,8 +103,8 @@ Document evaluation_document(const ReportInput& input) {
     errors.remarks.push_back(
         "One step ahead, with the measured force fed back (flatters; no measure of the model): "
         "RMSE " +
-        format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) +
-        " %.");
+        quantity(evaluation.one_step->rmse, "N", kDigits) + " " + unit_name("N") + ", ESR " +
+        percent(evaluation.one_step->esr) + " %.");
   if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
     errors.remarks.push_back(sentence);
   if (const std::string words = residual_verdict(residual_tests(input.ranking).front());

@@ -46,6 +46,19 @@ GnuplotText add_curves(GnuplotFigure& figure, const RecordResult& record,
   return figure.data({xs, measured, modelled});
 }
 
+/// The curves as people see them.
+Evaluation as_shown(Evaluation evaluation, const PrintUnits& units) {
+  const auto scale = [](std::vector<double>& values, double factor) {
+    for (double& value : values) value *= factor;
+  };
+  for (RecordResult& record : evaluation.records) {
+    scale(record.displacement, units.of("m").factor);
+    scale(record.velocity, units.of("m/s").factor);
+    for (auto* forces : {&record.measured, &record.modelled}) scale(*forces, units.of("N").factor);
+  }
+  return evaluation;
+}
+
 std::string drive_label(const RecordResult& record, const std::string& unit) {
   return record.drive_level ? level_text(*record.drive_level, unit) : record.record;
 }
@@ -64,26 +77,22 @@ double tic_step(double span) {
 /// One panel: loops of the records of one condition; lines are measured, dashes modelled.
 void loop_panel(GnuplotFigure& figure, const std::vector<const RecordResult*>& records,
                 const std::string& unit, Series axis) {
-  const GnuplotText x = axis == &RecordResult::displacement ? GnuplotText("(1000*$1)")
-                                                            : "1";  // mm are shorter in print
-
   // Tics follow the extent of the panel.
   double low = 0, high = 0;
   for (const RecordResult* record : records)
     for (const double value : record->*axis)
       low = std::min(low, value), high = std::max(high, value);
-  const double scale = axis == &RecordResult::displacement ? 1000 : 1;
-  figure.command(gnuplot("set xtics {}", tic_step(scale * (high - low))));
+  figure.command(gnuplot("set xtics {}", tic_step(high - low)));
 
   // Measured loops by level of the drive, the model in one dark dash above.
   std::vector<GnuplotText> measured, modelled;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const GnuplotText data = add_curves(figure, *records[i], records[i]->*axis);
-    measured.push_back(gnuplot("{} using {}:2 with lines lw 1.8 lc rgb {} title {}", data, x,
+    measured.push_back(gnuplot("{} using 1:2 with lines lw 1.8 lc rgb {} title {}", data,
                                level_colour(i, records.size()),
                                gnuplot_string(drive_label(*records[i], unit))));
-    modelled.push_back(gnuplot("{} using {}:3 with lines lw 0.9 dt (8,5) lc rgb '#1c2127' {}", data,
-                               x, i == 0 ? GnuplotText("title 'model'") : GnuplotText("notitle")));
+    modelled.push_back(gnuplot("{} using 1:3 with lines lw 0.9 dt (8,5) lc rgb '#1c2127' {}", data,
+                               i == 0 ? GnuplotText("title 'model'") : GnuplotText("notitle")));
   }
   figure.command("plot " + listed(measured) + ", " + listed(modelled));
 }
@@ -104,9 +113,9 @@ std::vector<std::vector<const RecordResult*>> by_condition(const Evaluation& eva
 }
 
 /// Panels of all conditions, up to three abreast, at most twelve.
-std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, Series axis,
-                            const fs::path& folder) {
-  auto groups = by_condition(model.left_out);
+std::vector<fs::path> loops(const Evaluation& shown, const PrintUnits& units,
+                            const std::string& drive_unit, Series axis, const fs::path& folder) {
+  auto groups = by_condition(shown);
   std::erase_if(groups, [&](const auto& group) {
     return std::ranges::any_of(
         group, [&](const RecordResult* r) { return (r->*axis).size() != r->time.size(); });
@@ -120,9 +129,11 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
   const bool is_velocity = axis == &RecordResult::velocity;
   GnuplotFigure figure(6.5 * static_cast<double>(columns) + 1, 6.2 * static_cast<double>(rows));
   figure.command(gnuplot("set multiplot layout {},{}", rows, columns));
-  figure.command("set ylabel 'Force (N)' offset 1,0");
-  figure.command("set xlabel " +
-                 gnuplot_string(is_velocity ? "Velocity (m/s)" : "Displacement (mm)"));
+  figure.command("set ylabel " + gnuplot_string("Force (" + units.of("N").name + ")") +
+                 " offset 1,0");
+  figure.command("set xlabel " + gnuplot_string(is_velocity
+                                                    ? "Velocity (" + units.of("m/s").name + ")"
+                                                    : "Displacement (" + units.of("m").name + ")"));
 
   // One panel per condition.
   for (const auto& group : groups) {
@@ -130,17 +141,18 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
     figure.command("set title " +
                    gnuplot_string(first.condition.empty() ? first.record : first.condition) +
                    " noenhanced");
-    loop_panel(figure, group, unit, axis);
+    loop_panel(figure, group, drive_unit, axis);
   }
   figure.command("unset multiplot");
   return figure.write(folder, is_velocity ? "force-velocity" : "force-displacement");
 }
 
 std::vector<fs::path> force_trace(const RankedModel& model, const RecordResult& record,
-                                  const fs::path& folder) {
+                                  const PrintUnits& units, const fs::path& folder) {
   GnuplotFigure figure(16, 7);
   const GnuplotText data = add_curves(figure, record, record.time);
-  figure.command("set xrange [] noextend\nset xlabel 'Time (s)'\nset ylabel 'Force (N)'");
+  figure.command("set xrange [] noextend\nset xlabel 'Time (s)'\nset ylabel " +
+                 gnuplot_string("Force (" + units.of("N").name + ")"));
   figure.command("set title " + gnuplot_string(record.record) + " noenhanced");
   figure.command(
       gnuplot("plot {0} using 1:2 with lines lw 2 lc rgb '{1}' title 'measured', {0} using 1:3 "
@@ -185,7 +197,8 @@ std::vector<fs::path> write_figures(const ReportInput& input, const fs::path& fo
   const auto best = std::ranges::find_if(input.ranking.models, usable);
   if (best == input.ranking.models.end())
     throw Error("figures", "no model was judged on any record");
-  const auto& records = best->left_out.records;
+  const Evaluation shown = as_shown(best->left_out, input.units);
+  const auto& records = shown.records;
   const auto worst = std::ranges::find(records, best->left_out.worst_record,
                                        [](const auto& r) { return r.record; });
 
@@ -194,9 +207,10 @@ std::vector<fs::path> write_figures(const ReportInput& input, const fs::path& fo
     paths.insert(paths.end(), more.begin(), more.end());
   };
   add(ranking_bars(input.ranking, folder));
-  add(loops(*best, to_string(input.dataset.drive_unit), &RecordResult::velocity, folder));
-  add(loops(*best, to_string(input.dataset.drive_unit), &RecordResult::displacement, folder));
-  add(force_trace(*best, worst == records.end() ? records.front() : *worst, folder));
+  const std::string drive_unit = to_string(input.dataset.drive_unit);
+  for (const Series axis : {&RecordResult::velocity, &RecordResult::displacement})
+    add(loops(shown, input.units, drive_unit, axis, folder));
+  add(force_trace(*best, worst == records.end() ? records.front() : *worst, input.units, folder));
   return paths;
 }
 

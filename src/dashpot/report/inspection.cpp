@@ -7,8 +7,10 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/numerics/constants.h"
+#include "dashpot/record/describe.h"
 #include "dashpot/record/differentiate.h"
 #include "dashpot/report/provenance.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"
 
@@ -29,14 +31,18 @@ Channel derived_velocity(const Record& record) {
           fmt::format("derived from displacement, {:.3g} Hz zero-phase", cutoff)};
 }
 
-FigurePanel panel_of(const std::string& title, const std::string& x_label,
-                     const std::string& y_label, int height) {
+/// A label, and the SI unit behind it.
+using Quantity = std::pair<std::string, std::string>;
+
+FigurePanel panel_of(const std::string& title, const Quantity& x, const Quantity& y, int height) {
   return {.title = title,
-          .x_label = x_label,
-          .y_label = y_label,
+          .x_label = x.first,
+          .y_label = y.first,
           .series = {},
           .height = height,
-          .empty = "The record holds no such channel."};
+          .empty = "The record holds no such channel.",
+          .x_unit = x.second,
+          .y_unit = y.second};
 }
 
 /// Fills the panels record by record; each shows the chosen record.
@@ -48,14 +54,14 @@ class ChannelPanels {
                                       {"Velocity", "m/s"},
                                       {"Force", "N"},
                                       {"Drive", to_string(drive_unit)}}) {
-      in_time_.push_back(panel_of(title, "Time (s)", title + " (" + unit + ")", 220));
+      in_time_.push_back(panel_of(title, {"Time", "s"}, {title, unit}, 220));
       in_time_.back().reads_along_x = true;
     }
     in_time_[1].note =
         "Where the recording has a velocity channel of its own, the velocity derived from "
         "displacement stands beside it.";
-    crossed_ = {panel_of("Force against velocity", "Velocity (m/s)", "Force (N)", 320),
-                panel_of("Force against displacement", "Displacement (m)", "Force (N)", 320)};
+    crossed_ = {panel_of("Force against velocity", {"Velocity", "m/s"}, {"Force", "N"}, 320),
+                panel_of("Force against displacement", {"Displacement", "m"}, {"Force", "N"}, 320)};
   }
 
   void add(const Record& record, std::size_t place) {
@@ -71,17 +77,17 @@ class ChannelPanels {
     const std::vector<std::size_t> chosen = thinned_indices(leading, points_);
 
     // Every channel over time.
-    const std::size_t time = keep(record.time, chosen, true);
+    const std::size_t time = keep(record.time, chosen, "s");
     std::optional<std::size_t> kept[4];
     for (std::size_t k = 0; k < 4; ++k)
       if (shown[k]) {
-        kept[k] = keep(shown[k]->samples, chosen);
+        kept[k] = keep(shown[k]->samples, chosen, in_time_[k].y_unit);
         add_series(in_time_[k], k == 1 ? shown[k]->origin : in_time_[k].title, "measured",
                    {.x = time, .y = *kept[k]}, place, k == 1);
       }
     if (!derived.samples.empty())
       add_series(in_time_[1], derived.origin, "modelled",
-                 {.x = time, .y = keep(derived.samples, chosen)}, place, true);
+                 {.x = time, .y = keep(derived.samples, chosen, derived.unit)}, place, true);
 
     // Force over velocity and displacement.
     for (const auto& [panel, axis] : {std::pair{0, 1}, {1, 0}})
@@ -97,8 +103,8 @@ class ChannelPanels {
 
  private:
   std::size_t keep(const std::vector<double>& values, const std::vector<std::size_t>& chosen,
-                   bool is_exact = false) {
-    SharedSamples shared{{}, is_exact};
+                   const std::string& si_unit) {
+    SharedSamples shared{{}, si_unit == "s", si_unit};
     for (const std::size_t i : chosen) shared.values.push_back(values[i]);
     samples_.push_back(std::move(shared));
     return samples_.size() - 1;
@@ -139,14 +145,21 @@ double level_of(const Record& record, const Dataset& dataset) {
 
 DocumentTable record_table(const Dataset& dataset) {
   DocumentTable table{.title = {}, .columns = {{"Record"}, {"Condition"}}, .rows = {}};
-  for (const std::string& title :
-       {"Drive " + to_string(dataset.drive_unit), std::string("Samples"), std::string("Duration s"),
-        std::string("Rate Hz"), std::string("Least x m"), std::string("Greatest x m"),
-        std::string("Greatest |v| m/s"), std::string("Least F N"), std::string("Greatest F N")})
-    table.columns.push_back({title, true});
+  const std::vector<std::pair<std::string, std::string>> columns{
+      {"Drive", to_string(dataset.drive_unit)},
+      {"Samples", ""},
+      {"Duration", "s"},
+      {"Rate", "Hz"},
+      {"Least x", "m"},
+      {"Greatest x", "m"},
+      {"Greatest |v|", "m/s"},
+      {"Least F", "N"},
+      {"Greatest F", "N"}};
+  for (const auto& [title, si_unit] : columns)
+    table.columns.push_back({si_unit.empty() ? title : title + ' ' + unit_name(si_unit), true});
   table.columns.push_back({"Role"});
 
-  // Extents are in SI; a channel that is missing leaves a dash.
+  // A channel that is missing leaves a dash.
   for (const Record& record : dataset.records) {
     const auto x = extent_of(record.find("displacement")), v = extent_of(record.find("velocity")),
                force = extent_of(record.find("force"));
@@ -156,7 +169,7 @@ DocumentTable record_table(const Dataset& dataset) {
           record.size() ? record.time.back() - record.time.front() : 0.0,
           record.sample_time > 0 ? 1 / record.sample_time : kNoNumber, x.first, x.second,
           std::max(std::abs(v.first), std::abs(v.second)), force.first, force.second})
-      row.push_back({number_text(value), value});
+      row.push_back({quantity(value, columns[row.size() - 2].second), value});
     row[3].text = std::to_string(record.size());
     row.push_back({role_name(record.role)});
     table.chooses.push_back({{"record", table.rows.size()}});
@@ -271,6 +284,7 @@ Document inspection_document(const InspectionInput& input) {
                     .version = input.version,
                     .date = input.date,
                     .kind = "recordings",
+                    .units = input.units,
                     .data = json_inspection(dataset, input.checks)};
   document.sections.push_back({.name = "records",
                                .title = "Records",
@@ -288,7 +302,7 @@ Document inspection_document(const InspectionInput& input) {
                                .title = "How the recordings were understood",
                                .paragraphs = {},
                                .tables = {reading_table(dataset)},
-                               .plain = describe(dataset)});
+                               .plain = describe(dataset, input.units)});
   if (!input.checks.empty())
     document.sections.push_back({.name = "velocity",
                                  .title = "Derived velocity",

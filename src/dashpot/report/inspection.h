@@ -15,6 +15,7 @@ struct InspectionInput {
   std::string command;
   std::string version;
   std::string date;  ///< ISO 8601
+  PrintUnits units = {};
 };
 
 /// How recordings were understood: every column and record, the channels of each record in time and

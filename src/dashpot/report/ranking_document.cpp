@@ -5,6 +5,7 @@
 #include "dashpot/identify/judge/left_inertia.h"
 #include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/provenance.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/report.h"
@@ -117,9 +118,10 @@ std::string result_text(const RankedModel& model, const RecordResult& result) {
                        number_text(*result.diverged_at));
   const Metrics& m = result.metrics;
   return fmt::format(
-      "{}: ESR {} %, RMSE {} N, fit {} %, greatest error {} N, energy error {} %, offset {} N.",
-      display_name(model), percent_text(m.esr), number_text(m.rmse), percent_text(m.fit),
-      number_text(m.max_error), percent_text(result.energy_error), number_text(result.offset));
+      "{}: ESR {} %, RMSE {} {}, fit {} %, greatest error {} {}, energy error {} %, offset {} {}.",
+      display_name(model), percent_text(m.esr), quantity(m.rmse, "N"), unit_name("N"),
+      percent_text(m.fit), quantity(m.max_error, "N"), unit_name("N"),
+      percent_text(result.energy_error), quantity(result.offset, "N"), unit_name("N"));
 }
 
 /// One model on one record, as the reader of the page chooses.
@@ -229,10 +231,11 @@ DocumentSection fitted_section(const Ranking& ranking) {
 std::vector<KeyFigure> key_figures(const Ranking& ranking) {
   if (ranking.models.empty() || ranking.models.front().left_out.records.empty()) return {};
   const Evaluation& best = ranking.models.front().left_out;
-  return {{percent_text(best.pooled.esr), "%", "of the force's power left unexplained (ESR)"},
-          {number_text(best.pooled.rmse), "N", "RMS error, free run, left-out records"},
-          {percent_text(best.pooled.fit), "%", "fit: 100 (1 − √ESR)"},
-          {percent_text(best.worst_esr), "%", "ESR of the worst record, " + best.worst_record}};
+  return {
+      {percent_text(best.pooled.esr), "%", "of the force's power left unexplained (ESR)"},
+      {quantity(best.pooled.rmse, "N"), unit_name("N"), "RMS error, free run, left-out records"},
+      {percent_text(best.pooled.fit), "%", "fit: 100 (1 − √ESR)"},
+      {percent_text(best.worst_esr), "%", "ESR of the worst record, " + best.worst_record}};
 }
 
 }  // namespace
@@ -250,6 +253,7 @@ Document ranking_document(const ReportInput& input) {
                     .date = input.date,
                     .kind = "identification report",
                     .key_figures = key_figures(ranking),
+                    .units = input.units,
                     .data = json_report(input)};
 
   // A ranking without models has only its protocol.
@@ -288,7 +292,8 @@ Document leaderboard_document(const ReportInput& input) {
                     .sections = {},
                     .command = {},
                     .version = input.version,
-                    .date = {}};
+                    .date = {},
+                    .units = input.units};
 
   // How models were judged, and both tables.
   document.sections.push_back(

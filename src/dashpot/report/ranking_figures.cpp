@@ -8,6 +8,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/force_band.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/residual.h"
 #include "dashpot/report/series.h"
@@ -79,13 +80,15 @@ bool moves(const std::vector<double>& samples) {
   return std::ranges::any_of(samples, [](double x) { return x != 0; });
 }
 
+/// A force over time.
 FigurePanel in_time(const std::string& title, const std::string& y_label, int height) {
   return {.title = title,
           .x_label = "Time (s)",
           .y_label = y_label,
           .series = {},
           .reads_along_x = true,
-          .height = height};
+          .height = height,
+          .y_unit = "N"};
 }
 
 /// Fills the panels of one model on one record, record by record, each with the condition under
@@ -94,29 +97,31 @@ class RecordPanels {
  public:
   RecordPanels(const ReportInput& input, std::vector<SharedSamples>& samples)
       : input_(input), samples_(samples) {
-    force_ = in_time("Force in time", "Force (N)", 340);
+    force_ = in_time("Force in time", "Force", 340);
     force_.note =
         "Where its start is shaded, it is simulated but not scored. Every plot: drag to zoom, "
         "Shift and drag to move, double-click to reset; with the keyboard + - arrows 0.";
-    residual_ = in_time("Residual in time", "Residual (N)", 280);
+    residual_ = in_time("Residual in time", "Residual", 280);
 
     // Loops over velocity and displacement.
     for (const auto& [panel, name, unit] :
          {std::tuple{&velocity_, "velocity", "m/s"}, {&displacement_, "displacement", "m"}})
       *panel = {.title = std::string("Force against ") + name,
-                .x_label = (name == std::string("velocity") ? "Velocity (" : "Displacement (") +
-                           std::string(unit) + ")",
-                .y_label = "Force (N)",
+                .x_label = name == std::string("velocity") ? "Velocity" : "Displacement",
+                .y_label = "Force",
                 .series = {},
                 .note = "Lines: measured. Dashes: modelled.",
                 .height = 320,
-                .empty = std::string("The recordings hold no ") + name + "."};
+                .empty = std::string("The recordings hold no ") + name + ".",
+                .x_unit = unit,
+                .y_unit = "N"};
     histogram_ = {.title = "Distribution of the residual",
-                  .x_label = "Residual (N)",
+                  .x_label = "Residual",
                   .y_label = "Share of samples (%)",
                   .series = {},
                   .reads_along_x = true,
-                  .height = 280};
+                  .height = 280,
+                  .x_unit = "N"};
     correlation_ = {.title = "Autocorrelation of the residual",
                     .x_label = "Lag (s)",
                     .y_label = "Correlation (1)",
@@ -134,8 +139,8 @@ class RecordPanels {
     const When here{{"record", {curves.record}}};
 
     // The measured record, once for all models.
-    const std::size_t time = keep(first.time, curves, true),
-                      measured = keep(first.measured, curves);
+    const std::size_t time = keep(first.time, curves, "s"),
+                      measured = keep(first.measured, curves, "N");
     const auto scored = std::ranges::lower_bound(curves.chosen, first.warm_up);
     const auto from = static_cast<std::size_t>(scored - curves.chosen.begin());
     FigureSeries line{.label = "measured", .colour = "measured", .x = {}, .y = {}, .width = 2.2};
@@ -163,7 +168,7 @@ class RecordPanels {
     for (const auto& [panel, samples] :
          {std::pair{&velocity_, &first.velocity}, std::pair{&displacement_, &first.displacement}})
       if (samples->size() == first.time.size() && moves(*samples))
-        axes.emplace_back(panel, keep(*samples, curves));
+        axes.emplace_back(panel, keep(*samples, curves, panel->x_unit));
     for (const auto& [panel, x] : axes)
       panel->series.push_back({.label = is_alone ? "measured" : drive,
                                .colour = is_alone ? "measured" : colour,
@@ -189,7 +194,7 @@ class RecordPanels {
 
     // Each model's force on it.
     for (const auto& [model, result] : curves.models) {
-      const std::size_t modelled = keep(result->modelled, curves);
+      const std::size_t modelled = keep(result->modelled, curves, "N");
       const When both{{"model", {model}}, {"record", {curves.record}}};
       add_force(curves, *result, {.x = time, .y = modelled}, both);
       residual_.series.push_back(
@@ -234,8 +239,8 @@ class RecordPanels {
 
  private:
   std::size_t keep(const std::vector<double>& values, const RecordCurves& curves,
-                   bool is_exact = false) {
-    SharedSamples shared{{}, is_exact};
+                   const std::string& si_unit) {
+    SharedSamples shared{{}, si_unit == "s", si_unit};
     for (const std::size_t i : curves.chosen) shared.values.push_back(values[i]);
     samples_.push_back(std::move(shared));
     return samples_.size() - 1;
@@ -264,7 +269,7 @@ class RecordPanels {
     for (std::size_t i = 0; i < size; ++i)
       half[i] =
           result.band->half_width_at({0, result.velocity[i], result.drive[i]}, result.spread_at(i));
-    curve.half_width = keep(half, curves);
+    curve.half_width = keep(half, curves, "N");
     force_.series.push_back(
         {.label = fmt::format("{:.0f} % interval, covers {} %", 100 * result.band->level,
                               percent_text(result.coverage.percent())),
@@ -399,13 +404,14 @@ void add_peaks(FigurePanel& panel, const RankedModel& model, std::size_t place,
 
 FigurePanel band_panel(const Ranking& ranking) {
   FigurePanel panel{.title = "Error by speed",
-                    .x_label = "Band of speed (m/s)",
-                    .y_label = "RMS error (N)",
+                    .x_label = "Band of speed (" + unit_name("m/s") + ")",
+                    .y_label = "RMS error",
                     .series = {},
                     .note =
                         "Every bar is the RMS error of the samples in a band of |v|. The first "
                         "band is the pre-yield region, where laws without hysteresis fail.",
-                    .height = 320};
+                    .height = 320,
+                    .y_unit = "N"};
   if (ranking.models.size() > kMostBars)
     panel.note += fmt::format(" Shown are the {} best models and the chosen one.", kMostBars);
 
@@ -424,8 +430,8 @@ FigurePanel band_panel(const Ranking& ranking) {
       bars.y.push_back(bands[k].metrics.rmse);
       if (panel.places.size() < bands.size())
         panel.places.push_back(split(bands[k].name, ',').front() + "\n" +
-                               format_number(bands[k].low, 2) + "–" +
-                               format_number(bands[k].high, 2));
+                               quantity(bands[k].low, "m/s", 2) + "–" +
+                               quantity(bands[k].high, "m/s", 2));
     }
     panel.series.push_back(std::move(bars));
   }
@@ -511,11 +517,13 @@ std::vector<DocumentFigure> record_figures(const ReportInput& input,
 
 DocumentFigure overview_figure(const ReportInput& input) {
   FigurePanel peaks{.title = "Peak force against velocity",
-                    .x_label = "Peak velocity (m/s)",
-                    .y_label = "Peak force (N)",
+                    .x_label = "Peak velocity",
+                    .y_label = "Peak force",
                     .series = {},
                     .note = "Filled: measured. Rings and dashes: modelled.",
-                    .height = 320};
+                    .height = 320,
+                    .x_unit = "m/s",
+                    .y_unit = "N"};
   for (std::size_t m = 0; m < input.ranking.models.size(); ++m)
     add_peaks(peaks, input.ranking.models[m], m, to_string(input.dataset.drive_unit));
   return {.name = "overview",

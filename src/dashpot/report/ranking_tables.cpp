@@ -15,6 +15,7 @@
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/report/predicted_ride_section.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -28,6 +29,7 @@ struct ModelColumn {
 };
 
 std::string three_digits(double value) { return number_text(value, 3); }
+std::string force(double value) { return quantity(value, "N"); }
 std::string two_digits(double value) { return number_text(value, 2); }
 std::string whole(double value) { return fmt::format("{:.0f}", value); }
 std::string four_digits(double value) { return number_text(value, 4); }
@@ -50,7 +52,7 @@ ModelColumn words(const char* name, const char* title, const char* hint, Words t
 
 /// A column of figures; a model that was not judged has none.
 template <typename Figure>
-ModelColumn figure(const char* name, const char* title, const char* hint, Figure value,
+ModelColumn figure(const char* name, const std::string& title, const char* hint, Figure value,
                    std::string (*text)(double), bool descending = false) {
   return {name,
           {.title = title, .numeric = true, .hint = hint, .descending = descending},
@@ -82,8 +84,8 @@ const std::vector<ModelColumn>& model_columns() {
             "Error power over force power, left-out records, one offset per record",
             [](Model m) { return m.left_out.pooled.esr; }, percent_text),
         figure(
-            "rmse_N", "RMSE N", "Root mean square error",
-            [](Model m) { return m.left_out.pooled.rmse; }, three_digits),
+            "rmse_N", "RMSE " + unit_name("N"), "Root mean square error",
+            [](Model m) { return m.left_out.pooled.rmse; }, force),
         figure(
             "fit_percent", "Fit %", "100 (1 - sqrt(ESR))",
             [](Model m) { return m.left_out.pooled.fit; }, percent_text, true),
@@ -111,9 +113,8 @@ const std::vector<ModelColumn>& model_columns() {
               return m.validation.pooled.samples ? m.validation.pooled.esr : kNoNumber;
             },
             percent_text),
-        figure("pre_yield_rmse_N", "Slow N",
-               "RMS error in the band of least speed: the pre-yield region", pre_yield_rmse,
-               three_digits),
+        figure("pre_yield_rmse_N", "Slow " + unit_name("N"),
+               "RMS error in the band of least speed: the pre-yield region", pre_yield_rmse, force),
         figure(
             "energy_error_percent", "Energy %",
             "Error of the dissipated energy: mean of its magnitude over the records",
@@ -128,11 +129,11 @@ const std::vector<ModelColumn>& model_columns() {
             "made without them",
             [](Model m) { return m.left_out.coverage.percent(); }, percent_text),
         figure(
-            "interval_width_N", "Width N", "Mean width of that interval",
+            "interval_width_N", "Width " + unit_name("N"), "Mean width of that interval",
             [](Model m) {
               return m.left_out.coverage.samples ? m.left_out.coverage.mean_width() : kNoNumber;
             },
-            three_digits),
+            force),
         figure(
             "parameters", "Par.", "Fitted numbers of the model",
             [](Model m) { return static_cast<double>(m.fit.model->parameter_count()); }, whole),
@@ -225,6 +226,7 @@ std::string remark(const FittedParameter& p) {
          (p.weak ? "weakly determined" : "");
 }
 
+/// The names of forces end with their SI unit.
 using MetricColumn = std::pair<const char*, double Metrics::*>;
 constexpr MetricColumn kMetricColumns[] = {{"rmse_N", &Metrics::rmse},
                                            {"rms_half_span_percent", &Metrics::rms_half_span},
@@ -244,8 +246,16 @@ const std::vector<RecordResult>& results_of(const RankedModel& model, ShownRecor
                                                  : model.training.records;
 }
 
+/// The factor of a column, and its name with the unit in which its forces are.
+std::pair<std::string, double> csv_column(std::string_view name, const PrintUnits& units) {
+  if (!name.ends_with("_N")) return {std::string(name), 1};
+  name.remove_suffix(1);
+  const PrintUnit force = units.of("N");
+  return {std::string(name) + force.name, force.factor};
+}
+
 std::string csv_line(const RankedModel& model, const RecordResult& record,
-                     const std::string& left_out) {
+                     const std::string& left_out, const PrintUnits& units) {
   const auto optional_text = [](const std::optional<double>& value) {
     return value ? format_exact(*value) : std::string();
   };
@@ -256,8 +266,9 @@ std::string csv_line(const RankedModel& model, const RecordResult& record,
                                      left_out,
                                      std::to_string(record.metrics.samples)};
   for (const auto& [name, member] : kMetricColumns)
-    fields.push_back(format_exact(record.metrics.*member));
-  for (const double value : {record.metrics_without_offset.esr, record.offset, record.energy_error})
+    fields.push_back(format_exact(csv_column(name, units).second * record.metrics.*member));
+  for (const double value : {record.metrics_without_offset.esr,
+                             units.of("N").factor * record.offset, record.energy_error})
     fields.push_back(format_exact(value));
   fields.push_back(optional_text(record.diverged_at));
   return join(fields, ",") + "\n";
@@ -322,9 +333,10 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
 }
 
 DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit) {
-  DocumentTable table{.title = "RMS error in N by speed, and ESR in % by drive",
-                      .columns = {{.title = "Model", .elastic = true}},
-                      .rows = {}};
+  DocumentTable table{
+      .title = "RMS error in " + unit_name("N") + " by speed, and ESR in % by drive",
+      .columns = {{.title = "Model", .elastic = true}},
+      .rows = {}};
   for (const RankedModel& model : ranking.models) {
     if (!is_judged(model)) continue;
 
@@ -332,8 +344,9 @@ DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit) {
     const bool is_first = table.rows.empty();
     std::vector<std::string> row = {model.name};
     for (const BandResult& band : model.left_out.bands) {
-      if (is_first) table.columns.push_back({split(band.name, ',').front() + " N", true});
-      row.push_back(number_text(band.metrics.rmse, 3));
+      if (is_first)
+        table.columns.push_back({split(band.name, ',').front() + ' ' + unit_name("N"), true});
+      row.push_back(quantity(band.metrics.rmse, "N"));
     }
     for (const DriveResult& drive : model.left_out.drive) {
       if (is_first) table.columns.push_back({level_title(drive, to_string(drive_unit)), true, 1});
@@ -354,7 +367,7 @@ DocumentTable interval_table(const Ranking& ranking) {
                   {"Covered %", true},
                   {"Worst %", true},
                   {.title = "Worst record", .priority = 2, .elastic = true},
-                  {"Width N", true},
+                  {"Width " + unit_name("N"), true},
                   {"of span %", true, 1}},
       .rows = {}};
 
@@ -362,9 +375,9 @@ DocumentTable interval_table(const Ranking& ranking) {
   for (const RankedModel& model : ranking.models) {
     const Coverage& all = model.left_out.coverage;
     if (const RecordResult* worst = model.left_out.worst_covered())
-      table.rows.push_back({model.name, percent_text(all.percent()),
-                            percent_text(worst->coverage.percent()), worst->record,
-                            number_text(all.mean_width()), percent_text(all.mean_width_percent())});
+      table.rows.push_back(
+          {model.name, percent_text(all.percent()), percent_text(worst->coverage.percent()),
+           worst->record, quantity(all.mean_width(), "N"), percent_text(all.mean_width_percent())});
   }
   return table;
 }
@@ -397,9 +410,9 @@ DocumentTable record_table(const Evaluation& evaluation, const std::string& titl
       .title = {},
       .columns = {{.title = title, .elastic = true},
                   {"ESR %", true},
-                  {"RMSE N", true},
+                  {"RMSE " + unit_name("N"), true},
                   {.title = "Fit %", .numeric = true, .descending = true},
-                  {.title = "Offset N",
+                  {.title = "Offset " + unit_name("N"),
                    .numeric = true,
                    .hint = "Added to the model's force: the zero of the load cell, gas"},
                   {"No offs. %", true, 1},
@@ -414,9 +427,9 @@ DocumentTable record_table(const Evaluation& evaluation, const std::string& titl
     const std::string end = r.diverged_at ? number_text(*r.diverged_at) + " s" : "";
     add_row(table, {{r.record},
                     percent(r.metrics.esr),
-                    {number_text(r.metrics.rmse), r.metrics.rmse},
+                    {quantity(r.metrics.rmse, "N"), r.metrics.rmse},
                     percent(r.metrics.fit),
-                    {number_text(r.offset), r.offset},
+                    {quantity(r.offset, "N"), r.offset},
                     percent(r.metrics_without_offset.esr),
                     percent(r.energy_error),
                     percent(r.coverage.percent()),
@@ -432,10 +445,10 @@ std::string interval_sentence(const Evaluation& evaluation) {
   const Coverage& all = evaluation.coverage;
   return fmt::format(
       "The {:.0f} % interval of the model covers {} % of the samples, {} % of the worst record "
-      "({}); its mean width is {} N, {} % of the force span.",
+      "({}); its mean width is {} {}, {} % of the force span.",
       100 * worst->band->level, percent_text(all.percent()),
-      percent_text(worst->coverage.percent()), worst->record, number_text(all.mean_width()),
-      percent_text(all.mean_width_percent()));
+      percent_text(worst->coverage.percent()), worst->record, quantity(all.mean_width(), "N"),
+      unit_name("N"), percent_text(all.mean_width_percent()));
 }
 
 std::string behind_text(const RankedModel& model) {
@@ -467,14 +480,17 @@ std::string stress_text(const StressRun& run) {
 std::string csv_report(const ReportInput& input) {
   std::string text =
       "model,record,condition,drive_" + name_of(input.dataset.drive_unit) + ",left_out,samples";
-  for (const auto& [name, member] : kMetricColumns) text += std::string(",") + name;
-  text += ",esr_without_offset_percent,offset_N,energy_error_percent,diverged_at_s\n";
+  const PrintUnits& units = input.file_units;
+  for (const auto& [name, member] : kMetricColumns) text += ',' + csv_column(name, units).first;
+  text += ",esr_without_offset_percent," + csv_column("offset_N", units).first +
+          ",energy_error_percent,diverged_at_s\n";
   for (const RankedModel& model : input.ranking.models) {
     for (const RecordResult& record : model.left_out.records)
-      text += csv_line(model, record, "yes");
+      text += csv_line(model, record, "yes", units);
     for (const RecordResult& record : model.validation.records)
-      text += csv_line(model, record, "validation");
-    for (const RecordResult& record : model.training.records) text += csv_line(model, record, "no");
+      text += csv_line(model, record, "validation", units);
+    for (const RecordResult& record : model.training.records)
+      text += csv_line(model, record, "no", units);
   }
   return text;
 }
@@ -483,8 +499,10 @@ std::string csv_leaderboard(const ReportInput& input) {
   constexpr std::array kFigures{"esr_percent",       "training_esr_percent", "mean_esr_percent",
                                 "worst_esr_percent", "pre_yield_rmse_N",     "energy_error_percent",
                                 "parameters",        "nanoseconds_per_step", "fit_cpu_seconds"};
+  std::vector<std::string> titles;
+  for (const char* name : kFigures) titles.push_back(csv_column(name, input.file_units).first);
   std::string text =
-      "rank,model,usable," + join({kFigures.begin(), kFigures.end()}, ",") +
+      "rank,model,usable," + join(titles, ",") +
       ",stress_finite,stress_largest_spans,diverged_records,behind_percent,behind_low_percent,"
       "behind_high_percent,told_apart,forgets,forgets_after_s,dissipates,least_share,"
       "wall_seconds_of_all" +
@@ -496,7 +514,9 @@ std::string csv_leaderboard(const ReportInput& input) {
     std::vector<std::string> fields = {std::to_string(++rank), csv_field(model.name),
                                        is_usable(model) ? "yes" : "no"};
     for (const char* name : kFigures)
-      fields.push_back(is_judged(model) ? format_exact(column_named(name).cell(model).key) : "");
+      fields.push_back(is_judged(model) ? format_exact(csv_column(name, input.file_units).second *
+                                                       column_named(name).cell(model).key)
+                                        : "");
     fields.insert(fields.end(),
                   {model.stress.finite ? "yes" : "no", format_exact(model.stress.largest_share),
                    std::to_string(model.left_out.diverged)});

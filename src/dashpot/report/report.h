@@ -19,6 +19,8 @@ struct ReportInput {
   std::string date;  ///< ISO 8601
   /// A model as a program that a page runs (export/js/js.h); null: the page has no sliders.
   std::function<JsText(const ModelFile&)> program = {};
+  PrintUnits units = {};                     ///< of the page, the words and the figures
+  PrintUnits file_units = PrintUnits::si();  ///< of the lines for programs
 };
 
 /// The ranking, one model on one record in full, all records, what was fitted and how it was

@@ -10,6 +10,7 @@
 #include "dashpot/identify/rank/information.h"
 #include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/report/predicted_ride_section.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/residual_section.h"
 #include "dashpot/report/words.h"
 
@@ -278,21 +279,22 @@ Value json_report(const ReportInput& input) {
   const std::optional<std::string> one_step = one_step_note(ranking);
 
   // Provenance and protocol first.
-  Value report = Value::object({{"format", "dashpot report 1"},
-                                {"version", input.version},
-                                {"date", input.date},
-                                {"command", input.command},
-                                {"dataset", dataset_json(input.dataset)},
-                                {"leave_out", format_leave_out(ranking.leave_out)},
-                                {"protocol_title", protocol_title(ranking)},
-                                {"protocol", protocol(ranking)},
-                                {"folds", Value::array(ranking.folds)},
-                                {"verdict", verdict(ranking, input.dataset)},
-                                {"leaders", std::move(leaders)},
-                                {"unit", ranking.unit},
-                                {"one_step", one_step ? Value(*one_step) : Value()},
-                                {"wall_seconds", ranking.wall_seconds},
-                                {"models", std::move(models)}});
+  Value report =
+      Value::object({{"format", "dashpot report 1"},
+                     {"version", input.version},
+                     {"date", input.date},
+                     {"command", input.command},
+                     {"dataset", dataset_json(input.dataset)},
+                     {"leave_out", format_leave_out(ranking.leave_out)},
+                     {"protocol_title", protocol_title(ranking)},
+                     {"protocol", protocol(ranking)},
+                     {"folds", Value::array(ranking.folds)},
+                     {"verdict", in_units(verdict(ranking, input.dataset), PrintUnits::si())},
+                     {"leaders", std::move(leaders)},
+                     {"unit", ranking.unit},
+                     {"one_step", one_step ? Value(*one_step) : Value()},
+                     {"wall_seconds", ranking.wall_seconds},
+                     {"models", std::move(models)}});
 
   // Only a ranking whose models Dashpot chose has a budget.
   if (ranking.budget) report.add("budget", budget_json(ranking));

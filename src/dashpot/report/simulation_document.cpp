@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/ride_parts.h"
 #include "dashpot/report/words.h"
 #include "dashpot/suspension/ride/weighting.h"
 
 namespace dashpot {
 namespace {
+
+constexpr double kMillimetres = 1000;  // per metre
 
 /// The runs as figures show them: the reference below.
 struct Shown {
@@ -37,11 +40,15 @@ DocumentTable measure_table(const Simulation& s) {
 
   // Each measure beside that of the reference.
   for (const RideMeasure& measure : s.run.measures) {
-    std::vector<std::string> row{measure.title, measure.unit == "1" ? "" : measure.unit,
-                                 number_text(measure.value, 4)};
+    const bool is_length = measure.unit == "mm";
+    const std::string si_unit = is_length ? "m" : measure.unit == "1" ? "" : measure.unit;
+    const auto shown = [&](double value) {
+      return quantity(is_length ? value / kMillimetres : value, si_unit, 4);
+    };
+    std::vector<std::string> row{measure.title, unit_name(si_unit), shown(measure.value)};
     if (s.against) {
       const double reference = measure_named(s.against->measures, measure.name);
-      row.push_back(number_text(reference, 4));
+      row.push_back(shown(reference));
       row.push_back(ratio_text(measure.value, reference));
     }
     table.rows.push_back(std::move(row));
@@ -53,23 +60,25 @@ DocumentTable measure_table(const Simulation& s) {
 }
 
 FigurePanel time_panel(const Simulation& s, const std::string& channel, const std::string& title,
-                       const std::string& unit, double factor = 1) {
-  FigurePanel panel{title, "time, s", unit, {}};
+                       const std::string& si_unit) {
+  FigurePanel panel{
+      .title = title, .x_label = "time, s", .y_label = {}, .series = {}, .y_unit = si_unit};
   for (const auto& [run, look] : shown_runs(s))
     if (run->trace.record.find(channel))
       panel.series.push_back(
-          over_time(*run, channel, factor, shown_stretch(s.duration, s.discard), look));
+          over_time(*run, channel, 1, shown_stretch(s.duration, s.discard), look));
   return panel;
 }
 
 /// The motion of the ground, which is the same for both runs.
-FigurePanel ground_panel(const Simulation& s, const std::string& channel, const std::string& unit,
-                         double factor) {
+FigurePanel ground_panel(const Simulation& s, const std::string& channel,
+                         const std::string& si_unit) {
   const FigureSeries look{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
-  return {"Ground",
-          "time, s",
-          unit,
-          {over_time(s.run, channel, factor, shown_stretch(s.duration, s.discard), look)}};
+  return {.title = "Ground",
+          .x_label = "time, s",
+          .y_label = {},
+          .series = {over_time(s.run, channel, 1, shown_stretch(s.duration, s.discard), look)},
+          .y_unit = si_unit};
 }
 
 bool is_driven(const Vehicle& vehicle) {
@@ -83,20 +92,20 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
   std::vector<FigurePanel> panels;
   if (plant.tyres.empty()) {
     const std::string top = plant.coordinates.back().name;
-    panels.push_back(ground_panel(s, "ground_acceleration", "m/s^2", 1));
-    panels.push_back(time_panel(s, top, top + ", displacement", "mm", 1000));
+    panels.push_back(ground_panel(s, "ground_acceleration", "m/s^2"));
+    panels.push_back(time_panel(s, top, top + ", displacement", "m"));
     panels.push_back(
         time_panel(s, top + "_acceleration", top + ", acceleration over the ground", "m/s^2"));
   } else {
     const std::string body = plant.coordinates.front().name, tyre = plant.tyres.front().name;
-    panels.push_back(ground_panel(s, tyre + "_road", "mm", 1000));
+    panels.push_back(ground_panel(s, tyre + "_road", "m"));
     panels.push_back(time_panel(s, body + "_acceleration", body + ", acceleration", "m/s^2"));
     panels.push_back(time_panel(s, tyre + "_load", tyre + ", load", "N"));
   }
 
   // The damper itself, where there is one.
   if (strut.empty()) return panels;
-  panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "mm", 1000));
+  panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "m"));
   panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
   if (is_driven(vehicle)) {
     const std::string unit =
@@ -110,7 +119,12 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
 
 /// The work of the damper: force over velocity.
 DocumentFigure work_figure(const Simulation& s) {
-  FigurePanel panel{"", "velocity, m/s", "damper force, N", {}};
+  FigurePanel panel{.title = {},
+                    .x_label = "velocity",
+                    .y_label = "damper force",
+                    .series = {},
+                    .x_unit = "m/s",
+                    .y_unit = "N"};
   const std::string& strut = s.run.vehicle->set.plant.struts.front().name;
 
   // A few thousand samples of each run are enough to see the curve.
@@ -134,8 +148,8 @@ std::string verdict_of(const Simulation& s) {
   if (s.run.vehicle->set.plant.tyres.empty() || !s.against) {
     const double a = measure_named(s.run.measures, "weighted_acceleration");
     if (!std::isfinite(a)) return "";
-    return "a_w " + format_number(a, 3) +
-           " m/s^2: " + std::string(RideComfort{.weighted_rms = a}.feeling()) +
+    return "a_w " + quantity(a, "m/s^2") + ' ' + unit_name("m/s^2") + ": " +
+           std::string(RideComfort{.weighted_rms = a}.feeling()) +
            " by ISO 2631-1 (bands as recalled).";
   }
 

@@ -10,9 +10,13 @@ namespace dashpot {
 std::string percent_text(double value);
 /// `digits` significant digits, or "-" when not finite.
 std::string number_text(double value, int digits = 3);
-/// "2 records", "1 record".
+/// The same without an exponent up to a million, as people write forces.
+std::string plain_text(double value, int digits = 3);
+/// "12", or "8 ... 12" where the least and the greatest differ as they are printed.
+std::string range_text(double least, double greatest, int digits);
 /// "0.5 A"; without a unit "constant drive", since nothing is known of it.
 std::string level_text(double level, const std::string& unit);
+/// "2 records", "1 record".
 std::string counted(std::size_t count, const std::string& noun);
 /// "converged", "iteration_limit", "failed".
 std::string status_name(FitReport::Status status);

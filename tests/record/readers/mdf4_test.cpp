@@ -159,6 +159,33 @@ TEST_CASE("MDF 4: what is damaged is refused with the place") {
   CHECK_THROWS_WITH_AS(read_mdf4_bytes(other), doctest::Contains("is MDF of version 3.3"), Error);
 }
 
+TEST_CASE("MDF 4: storage by column is refused with what to save instead") {
+  // Listed, plain and packed.
+  for (const int way : {0, 1, 2}) {
+    CAPTURE(way);
+    ExampleMdf4 file;
+    const std::string records = example_mdf4_record(0) + example_mdf4_record(1);
+    std::uint64_t data = way == 2 ? file.packed(records) : file.block("DV", {}, records);
+    if (way == 1) data = file.block("LD", {0, data}, std::string(16, '\0'));
+    const std::uint64_t group = file.group(example_mdf4_channels(file), 2, 18);
+    std::string bytes = file.finish(file.data_group(group, data));
+    if (way == 2) bytes.replace(data + 24, 2, "DV");
+    CHECK_THROWS_WITH_AS(read_mdf4_bytes(bytes), doctest::Contains("save it as MDF 4.1"), Error);
+  }
+}
+
+TEST_CASE("MDF 4: values of different lengths are passed over with a note") {
+  ExampleMdf4 file;
+  std::vector<ExampleMdf4::Channel> channels = example_mdf4_channels(file);
+  channels.push_back({.name = "remark", .kind = 1, .type = 7, .byte = 10, .bits = 64});
+  std::string records;
+  for (int k = 0; k < 3; ++k) records += example_mdf4_record(k);
+  const RawTable table = read_group(file, channels, records, 18);
+  CHECK(table.columns.size() == 3);
+  REQUIRE(table.notes.size() == 1);
+  CHECK(table.notes[0] == "channel 'remark' passed over: its values have different lengths");
+}
+
 TEST_CASE("MDF 4: a bomb of packed blocks listed again and again is refused") {
   ExampleMdf4 file;
   const std::uint64_t block = file.packed(std::string(std::size_t{8} << 20, '\0'));

@@ -54,6 +54,17 @@ std::string token_of(const Fmu& fmu) {
          hash.substr(16, 4) + '-' + hash.substr(20, 12) + '}';
 }
 
+/// For which binaries are compiled, each once.
+std::vector<const FmuPlatform*> wanted_platforms(const ExportOptions& options) {
+  if (options.sources_only) return {};
+  if (options.platforms.empty()) return {&own_platform()};
+  std::vector<const FmuPlatform*> wanted;
+  for (const std::string& name : options.platforms)
+    if (std::ranges::find(wanted, &find_platform(name)) == wanted.end())
+      wanted.push_back(&find_platform(name));
+  return wanted;
+}
+
 std::vector<ExportedFile> write_fmu(Fmu fmu, const ExportOptions& options, int version) {
   fmu.version = version;
   fmu.command = options.command;
@@ -75,11 +86,11 @@ std::vector<ExportedFile> write_fmu(Fmu fmu, const ExportOptions& options, int v
   const std::vector<ExportedFile> sources = fmu_sources(fmu);
   for (const ExportedFile& file : sources) files.push_back({"sources/" + file.name, file.content});
   if (version == 3) files.push_back({"sources/buildDescription.xml", fmu_build_description(fmu)});
-  if (!options.sources_only)
+  for (const FmuPlatform* platform : wanted_platforms(options))
     files.push_back(
-        {std::string("binaries/") + (version == 2 ? "linux64/" : "x86_64-linux/") + fmu.name +
-             ".so",
-         compile_shared_library(sources, fmu_translation_units(fmu), options.compiler)});
+        {fmt::format("binaries/{}/{}{}", version == 2 ? platform->fmi2 : platform->fmi3, fmu.name,
+                     platform->ending),
+         compile_shared_library(sources, fmu_translation_units(fmu), *platform, options.compiler)});
   return {{fmu.name + (version == 2 ? "_fmi2.fmu" : "_fmi3.fmu"), zip_archive(files, fmu.made)}};
 }
 

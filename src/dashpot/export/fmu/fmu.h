@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <ctime>
+#include <span>
 
 #include "dashpot/export/c/c_block.h"
 
@@ -69,11 +70,25 @@ std::string fmu_reference_run(const Fmu& fmu);
 /// The manifest by which FMI-LS-REF announces that run.
 std::string fmu_reference_manifest(const Fmu& fmu);
 
-/// A shared library of C files, as the bytes of the file. `compiler`: a program and more of its
-/// arguments. Throws Error when there is none or it complains.
+/// A platform that an FMU can hold a binary for.
+struct FmuPlatform {
+  std::string_view name;        ///< in ExportOptions::platforms
+  std::string_view fmi2, fmi3;  ///< its folder in binaries/
+  std::string_view ending;      ///< of a library there
+  std::string_view compiler;    ///< of Debian, on machines of another kind
+  std::string_view package;     ///< that holds it
+};
+std::span<const FmuPlatform> fmu_platforms();
+/// That of this machine.
+const FmuPlatform& own_platform();
+/// Throws Error that names those that are known.
+const FmuPlatform& find_platform(std::string_view name);
+
+/// A shared library of C files, as the bytes of the file. `compiler`: for this machine, a program
+/// and more of its arguments. Throws Error when there is none or it complains.
 std::string compile_shared_library(const std::vector<ExportedFile>& files,
                                    const std::vector<std::string>& translation_units,
-                                   const std::string& compiler);
+                                   const FmuPlatform& platform, const std::string& compiler);
 /// A zip archive, all files bearing one time.
 std::string zip_archive(const std::vector<ExportedFile>& files, std::time_t time);
 

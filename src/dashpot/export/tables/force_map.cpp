@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/print_units.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/export/export_run.h"
@@ -107,10 +108,12 @@ std::string extrapolation_note(const ExportedModel& model, const ExportOptions& 
   if (!leaves(options.velocities, d.velocity_min, d.velocity_max) &&
       !leaves(options.currents, d.current_min, d.current_max))
     return {};
-  constexpr double kMilli = 1000;
-  return "extrapolated beyond " + format_number(kMilli * d.velocity_min) + " ... " +
-         format_number(kMilli * d.velocity_max) + " mm/s and " + format_number(d.current_min) +
-         " ... " + format_number(d.current_max) + ' ' + unit_of(model.drive_unit);
+  const PrintUnit speed =
+      (options.units.empty() ? PrintUnits() : PrintUnits::parse(options.units, "units")).of("m/s");
+  return "extrapolated beyond " + format_number(speed.factor * d.velocity_min) + " ... " +
+         format_number(speed.factor * d.velocity_max) + ' ' + speed.name + " and " +
+         format_number(d.current_min) + " ... " + format_number(d.current_max) + ' ' +
+         unit_of(model.drive_unit);
 }
 
 CurrentMap inverse_of(const ForceMap& map) {

@@ -1,5 +1,8 @@
+#include <array>
+
 #include <fmt/core.h>
 
+#include "dashpot/base/print_units.h"
 #include "dashpot/base/text.h"
 #include "dashpot/export/tables/force_map.h"
 #include "dashpot/record/mat_bytes.h"
@@ -9,16 +12,37 @@ namespace {
 
 constexpr int kDigits = 12;  // of rates in mm/s, which are read by people
 
-/// A table with the values of its rows in the first column, those of its columns in the first line.
-std::string csv(const std::string& corner, const std::vector<double>& rows,
-                const std::vector<double>& columns, const std::vector<double>& values) {
-  std::string text = corner;
-  for (const double column : columns) text += ',' + format_exact(column);
+/// The head of a table, and where the model extrapolates in it.
+std::string with_note(const std::string& head, const std::string& note) {
+  return note.empty() ? head : head + "; " + note;
+}
+
+/// Numbers in SI and the unit in which a table has them.
+struct Shown {
+  const std::vector<double>& numbers;
+  PrintUnit unit;
+
+  /// Of another unit than SI, as people read it at the head of a line.
+  std::string head(std::size_t k) const {
+    return unit.factor == 1 ? format_exact(numbers[k])
+                            : format_number(unit.factor * numbers[k], kDigits);
+  }
+};
+
+/// "force[N]: velocity[m/s] \ current[A]" and a note; the values of the rows in the first column,
+/// those of the columns in the first line.
+std::string csv(const std::array<std::string, 3>& names, const std::string& note,
+                const Shown& values, const Shown& rows, const Shown& columns) {
+  std::string text = with_note(fmt::format("{}[{}]: {}[{}] \\ {}[{}]", names[0], values.unit.name,
+                                           names[1], rows.unit.name, names[2], columns.unit.name),
+                               note);
+  const std::size_t width = columns.numbers.size();
+  for (std::size_t c = 0; c < width; ++c) text += ',' + columns.head(c);
   text += '\n';
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    text += format_exact(rows[r]);
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      text += ',' + format_exact(values[r * columns.size() + c]);
+  for (std::size_t r = 0; r < rows.numbers.size(); ++r) {
+    text += rows.head(r);
+    for (std::size_t c = 0; c < width; ++c)
+      text += ',' + format_exact(values.unit.factor * values.numbers[r * width + c]);
     text += '\n';
   }
   return text;
@@ -41,11 +65,6 @@ ForceMap asked_map(const ExportedModel& model, const ExportOptions& options) {
   return force_map(model, export_sample_time(model, options), options.velocities, options.currents);
 }
 
-/// The head of a table, and where the model extrapolates in it.
-std::string with_note(const std::string& head, const std::string& note) {
-  return note.empty() ? head : head + "; " + note;
-}
-
 std::string dpr(const ForceMap& map, std::size_t i, const std::string& title,
                 const std::string& note) {
   std::string text = fmt::format(
@@ -64,12 +83,12 @@ std::string dpr(const ForceMap& map, std::size_t i, const std::string& title,
 }  // namespace
 
 std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportOptions& options) {
-  const std::string name = export_name(model, options), unit = unit_of(model.drive_unit);
+  const std::string name = export_name(model, options);
   const ForceMap map = asked_map(model, options);
   const CurrentMap inverse = inverse_of(map);
   const std::string note = extrapolation_note(model, options);
 
-  // The same numbers for spreadsheets and for MATLAB.
+  // The same numbers for spreadsheets, and in SI for MATLAB.
   const std::vector<MatVariable> matrices{
       column("velocity", map.velocity),
       column("current", map.current),
@@ -77,12 +96,15 @@ std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportO
       matrix("extrapolated", map.velocity.size(), map.current.size(), map.extrapolated),
       column("wanted_force", inverse.force),
       matrix("inverse_current", inverse.velocity.size(), inverse.force.size(), inverse.current)};
+  const PrintUnits units =
+      options.units.empty() ? PrintUnits::si() : PrintUnits::parse(options.units, "units");
+  const PrintUnit speed = units.of("m/s"), force = units.of("N"),
+                  drive{unit_of(model.drive_unit), 1};
   return {
-      {name + "_force.csv", csv(with_note("force[N]: velocity[m/s] \\ current[" + unit + "]", note),
-                                map.velocity, map.current, map.force)},
-      {name + "_current.csv",
-       csv(with_note("current[" + unit + "]: velocity[m/s] \\ force[N]", note), inverse.velocity,
-           inverse.force, inverse.current)},
+      {name + "_force.csv", csv({"force", "velocity", "current"}, note, {map.force, force},
+                                {map.velocity, speed}, {map.current, drive})},
+      {name + "_current.csv", csv({"current", "velocity", "force"}, note, {inverse.current, drive},
+                                  {inverse.velocity, speed}, {inverse.force, force})},
       {name + ".mat", mat_bytes(matrices, "Dashpot " + options.version + ": " + name)}};
 }
 

@@ -14,8 +14,9 @@ bool is_mdf4(const std::filesystem::path& path, std::string_view extension, std:
 /// table, in the physical units of the file. Streams the data: memory is what the columns need.
 /// Texts, arrays, complex numbers, single bits and conversions into texts or by formulas are passed
 /// over with a note; of a group with more than 64 channels only those that are known by their names
-/// are read. Samples whose invalidation bit is set are NaN. Throws Error on damage and on MDF 3,
-/// and NoTable when no group holds numbers.
+/// are read. Values of different lengths (VLSD) are passed over likewise. Samples whose
+/// invalidation bit is set are NaN. Throws Error on damage, on MDF 3 and on the column-oriented
+/// storage of MDF 4.2, and NoTable when no group holds numbers.
 std::vector<RawTable> read_mdf4(const std::filesystem::path& path);
 
 }  // namespace dashpot

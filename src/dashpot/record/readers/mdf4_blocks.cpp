@@ -36,6 +36,12 @@ void Mdf4Blocks::fail(std::uint64_t at, const std::string& what) const {
               "copy it again from its source");
 }
 
+void Mdf4Blocks::fail_by_column() const {
+  throw Error(file_.path(),
+              "stores its samples column by column, in blocks DV or LD, as MDF 4.2 may",
+              "save it as MDF 4.1, or without column-oriented storage");
+}
+
 Mdf4Block Mdf4Blocks::block(std::uint64_t at, std::string_view names) {
   // No file has more blocks than their heads have room for, read each a few times.
   if (++blocks_ > 16 + file_.size() / 4) fail(at, "its blocks refer to each other in a circle");
@@ -79,7 +85,8 @@ std::string Mdf4Blocks::text(std::uint64_t at) {
 
 void Mdf4Blocks::stream(std::uint64_t at, const std::function<void(std::string_view)>& take) {
   if (at == 0) return;
-  Mdf4Block first = block(at, "DT DZ DL HL");
+  Mdf4Block first = block(at, "DT DZ DL HL DV LD");
+  if (first.name == "DV" || first.name == "LD") fail_by_column();
   if (first.name == "HL") {
     if (first.link(0) == 0) return;
     first = block(first.link(0), "DL");
@@ -120,6 +127,7 @@ void Mdf4Blocks::stream_packed(const Mdf4Block& block,
   const auto width = number_at<std::uint32_t>(head.data() + 4);
   const auto whole = number_at<std::uint64_t>(head.data() + 8);
   const auto packed = number_at<std::uint64_t>(head.data() + 16);
+  if (head.substr(0, 2) == "DV" || head.substr(0, 2) == "DI") fail_by_column();
   if (head.substr(0, 2) != "DT") fail(block.at, "packed data of another kind than DT");
   if (way > 1)
     throw Error(file_.path(), "is packed in way " + std::to_string(way) + ", newer than MDF 4.2",

@@ -35,8 +35,8 @@ class Mdf4Blocks {
   std::string text(std::uint64_t at);
 
   /// Gives the bytes behind the data link of a data group in order, in pieces of any size: of DT,
-  /// DZ, DL and HL blocks. Throws Error on damage and on far more bytes than a file of this size
-  /// has.
+  /// DZ, DL and HL blocks. Throws Error on damage, on data in columns (DV, LD) and on far more
+  /// bytes than a file of this size has.
   void stream(std::uint64_t at, const std::function<void(std::string_view)>& take);
 
   const ByteFile& file() const { return file_; }
@@ -47,6 +47,7 @@ class Mdf4Blocks {
   void stream_plain(const Mdf4Block& block, const std::function<void(std::string_view)>& take);
   void stream_packed(const Mdf4Block& block, const std::function<void(std::string_view)>& take);
   void count(std::uint64_t at, std::uint64_t bytes);
+  [[noreturn]] void fail_by_column() const;
 
   ByteFile file_;
   std::uint64_t blocks_ = 0, streamed_ = 0;

@@ -74,7 +74,7 @@ function document_section(part, ...before) {
     paragraphs.map((text) => element("p", {class: "lead"}, text)),
     choices.length ? element("div", {class: "choices"}, choices.map(choice_select)) : null,
     plane ? document_plane(plane) : null,
-    sliders ? document_sliders(sliders) : null,
+    sliders ? document_sliders(sliders, page_units) : null,
     living(words, document_list, {"aria-live": "polite"}),
     living(tables, document_table), figures.map(document_figure),
     remarks.length ? element("ul", {class: "warnings"}, remarks.map((text) => element("li", {}, text))) : null,
@@ -82,7 +82,10 @@ function document_section(part, ...before) {
     part.facts.length ? facts(part.facts) : null);
 }
 
+let page_units;  // in which its own programs show what they compute in SI
+
 function start_document(data) {
+  page_units = data.units;
   share_samples(data.samples);
   // Choices first: parts of other sections, before and after, depend on them.
   data.sections.forEach(({choices}) => choices.forEach(({name, chosen: first}) => { chosen[name] = first; }));

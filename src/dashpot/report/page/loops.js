@@ -9,8 +9,11 @@ function three_digits(value) {
   return (is_plain ? String(Number(value.toPrecision(3))) : Number(value.toPrecision(3)).toExponential()).replace("e+", "e").replaceAll("-", "−");
 }
 
+// How a page shows what is computed in SI: for each unit its name there and the factor to it.
+const kPageUnits = {N: {name: "N", factor: 1}, m: {name: "mm", factor: 1e3}, "m/s": {name: "mm/s", factor: 1e3}, J: {name: "J", factor: 1}};
+
 // A slider: {key, label, unit, scale (shown = scale * value), low, high, value, is_log?, meaning?}.
-function motion_sliders({inputs: [displacement, velocity, current]}) {
+function motion_sliders({inputs: [displacement, velocity, current]}, units = kPageUnits) {
   const stroke = half_stroke(displacement), top = Math.max(Math.abs(velocity.low), Math.abs(velocity.high));
   const edge = top / (2 * Math.PI * stroke);  // Hz: the whole stroke at the greatest speed
   const two_digits = (value) => Number(value.toPrecision(2));
@@ -18,7 +21,7 @@ function motion_sliders({inputs: [displacement, velocity, current]}) {
   return [
     {key: "current", label: current.unit === "V" ? "Voltage" : "Current", unit: current.unit, scale: 1, low: 1.5 * levels[0], high: 1.5 * levels[1] || 1,
       value: two_digits((current.low + current.high) / 2)},
-    {key: "amplitude", label: "Amplitude", unit: "mm", scale: 1e3, low: stroke / 50, high: 1.5 * stroke, value: amplitude},
+    {key: "amplitude", label: "Amplitude", unit: units.m.name, scale: units.m.factor, low: stroke / 50, high: 1.5 * stroke, value: amplitude},
     {key: "frequency", label: "Frequency", unit: "Hz", scale: 1, low: edge / 20, high: 20 * edge, is_log: true,
       value: two_digits(0.6 * top / (2 * Math.PI * amplitude))},
   ];
@@ -57,8 +60,9 @@ function value_at({low, high, is_log}, place) {
 }
 
 // Where a motion leaves the data of the model, in words, one for each way.
-function beyond(model, setting, parameters = {}) {
+function beyond(model, setting, parameters = {}, units = kPageUnits) {
   const {inputs: [displacement, velocity, current]} = model;
+  const way = (value) => three_digits(units.m.factor * value), rate = (value) => three_digits(units["m/s"].factor * value);
   const room = 0.01;  // of the range: a record's motion is set to two digits
   const outside = (least, most, {low, high}) => least < low - room * (high - low) || most > high + room * (high - low);
   const middle = middle_of(model, setting), speed = 2 * Math.PI * setting.frequency * setting.amplitude;
@@ -66,9 +70,9 @@ function beyond(model, setting, parameters = {}) {
   if (outside(setting.current, setting.current, current))
     words.push(`${current.unit === "V" ? "voltage" : "current"} ${three_digits(setting.current)} ${current.unit}, recorded ${three_digits(current.low)} to ${three_digits(current.high)}`);
   if (outside(middle - setting.amplitude, middle + setting.amplitude, displacement))
-    words.push(`amplitude ${three_digits(1e3 * setting.amplitude)} mm, recorded to ${three_digits(500 * (displacement.high - displacement.low))}`);
+    words.push(`amplitude ${way(setting.amplitude)} ${units.m.name}, recorded to ${way((displacement.high - displacement.low) / 2)}`);
   if (outside(-speed, speed, velocity))
-    words.push(`speed to ${three_digits(1e3 * speed)} mm/s, recorded ${three_digits(1e3 * velocity.low)} to ${three_digits(1e3 * velocity.high)}`);
+    words.push(`speed to ${rate(speed)} ${units["m/s"].name}, recorded ${rate(velocity.low)} to ${rate(velocity.high)}`);
   for (const parameter of model.parameters) {
     const {name, low, high} = parameter, value = parameters[name] ?? parameter.value;
     if (low === undefined || !outside(value, value, parameter)) continue;
@@ -83,12 +87,12 @@ function middle_of({inputs: [{low, high}]}, {middle}) {
   return middle ?? (low + high) / 2;
 }
 
-// A record: {current, conditions, velocity: {x, y}, displacement: {x, y}}, with y the force N over mm/s and mm. The sine that
-// is nearest to its motion, to two digits; the middle is exact.
-function motion_of({current, velocity, displacement}) {
-  const [low, high] = ends_of(displacement.x), [least, most] = ends_of(velocity.x), two_digits = (value) => Number(value.toPrecision(2));
-  const amplitude = (high - low) / 2;
-  return {current, middle: (low + high) / 2e3, amplitude: two_digits(amplitude / 1e3), frequency: two_digits((most - least) / 2 / (2 * Math.PI * amplitude))};
+// A record: {current, conditions, velocity: {x, y}, displacement: {x, y}}, with y the force, in the units of the page. The sine
+// that is nearest to its motion, to two digits; the middle is exact.
+function motion_of({current, velocity, displacement}, units = kPageUnits) {
+  const [low, high] = ends_of(displacement.x).map((x) => x / units.m.factor), [least, most] = ends_of(velocity.x).map((v) => v / units["m/s"].factor);
+  const two_digits = (value) => Number(value.toPrecision(2)), amplitude = (high - low) / 2;
+  return {current, middle: (low + high) / 2, amplitude: two_digits(amplitude), frequency: two_digits((most - least) / 2 / (2 * Math.PI * amplitude))};
 }
 function ends_of(values) {
   return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
@@ -125,10 +129,10 @@ function kept_range(old, [least, most]) {
   return old && least >= old[0] && most <= old[1] && most - least >= 0.5 * (old[1] - old[0]) ? old : [least, most];
 }
 
-// One cycle after as many as it takes to close, or as there is time for: displacement mm, velocity mm/s and force N along it, the energy that it
-// takes out, J, and whether it closes; where there are such, half of the band around the force, and what plate flow alone would give, N. Begins at rest at the
-// lower end.
-function loop_of({model, create, reset, advance, plate_flow}, setting, parameters) {
+// One cycle after as many as it takes to close, or as there is time for: displacement, velocity and force along it, the energy that it
+// takes out, in the units of the page, and whether it closes; where there are such, half of the band around the force, and what plate flow
+// alone would give. Begins at rest at the lower end.
+function loop_of({model, create, reset, advance, plate_flow}, setting, parameters, units = kPageUnits) {
   const {current, amplitude, frequency} = setting, middle = middle_of(model, setting), rate = 2 * Math.PI * frequency, begin = performance.now();
   const motion = Array.from({length: kPerCycle + 1}, (_, k) => {
     const phase = 2 * Math.PI * k / kPerCycle;
@@ -156,9 +160,11 @@ function loop_of({model, create, reset, advance, plate_flow}, setting, parameter
   // Builds differ by a share of the force, which `build` has moved already.
   const {interval} = model, {build_spread = 0, offset = 0} = interval ?? {}, build = parameters.build ?? model.parameters.find(({name}) => name === "build")?.value ?? 0;
   const builds = (newton) => Math.abs((newton - offset) / (1 + build_spread * build) * build_spread);
-  return {displacement: motion.map(([x]) => 1e3 * x), velocity: motion.map(([, v]) => 1e3 * v), force, energy, least, greatest, closes,
-    half_width: interval ? motion.map(([, v], k) => half_width_of(interval, v, current, builds(force[k]))) : undefined,
-    plate: plate_flow ? motion.map(([x, v]) => plate_flow(state, x, v, current)) : undefined};
+  const {N, m, J, "m/s": rate_unit} = units;
+  return {displacement: motion.map(([x]) => m.factor * x), velocity: motion.map(([, v]) => rate_unit.factor * v),
+    force: force.map((newton) => N.factor * newton), energy: J.factor * energy, least: N.factor * least, greatest: N.factor * greatest, closes,
+    half_width: interval ? motion.map(([, v], k) => N.factor * half_width_of(interval, v, current, builds(force[k]))) : undefined,
+    plate: plate_flow ? motion.map(([x, v]) => N.factor * plate_flow(state, x, v, current)) : undefined};
 }
 
 // What is drawn over `key`, "velocity" or "displacement", the one below first: {role, label, x, y}. `before`: the loop as
@@ -175,7 +181,7 @@ function loop_curves(key, loop, before, record, level) {
 }
 
 // What is seen of a loop, in words.
-function loop_words({least, greatest, energy, closes}) {
+function loop_words({least, greatest, energy, closes}, units = kPageUnits) {
   if (!Number.isFinite(least + greatest)) return "The model diverges here.";
-  return `Force ${three_digits(least)} to ${three_digits(greatest)} N; ${three_digits(Math.abs(energy))} J ${energy < 0 ? "fed in" : "taken out"} in a cycle${closes ? "" : "; the loop is not closed yet"}.`;
+  return `Force ${three_digits(least)} to ${three_digits(greatest)} ${units.N.name}; ${three_digits(Math.abs(energy))} ${units.J.name} ${energy < 0 ? "fed in" : "taken out"} in a cycle${closes ? "" : "; the loop is not closed yet"}.`;
 }

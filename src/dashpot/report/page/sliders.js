@@ -18,10 +18,10 @@ function slider_node(slider, on_move) {
     show};
 }
 
-// A record of the page as loops.js takes it: mm, mm/s, N.
-function measured_loop({displacement, velocity, force, first, ...record}) {
-  const cut = (place, scale) => Array.from(series_of(place).subarray(first), (value) => scale * value), y = cut(force, 1);
-  return {...record, displacement: {x: cut(displacement, 1e3), y}, velocity: {x: cut(velocity, 1e3), y}};
+// A record of the page as loops.js takes it, in the units of the page.
+function measured_loop({displacement, velocity, force, first, ...record}, units) {
+  const cut = (place, {factor}) => Array.from(series_of(place).subarray(first), (value) => factor * value), y = cut(force, units.N);
+  return {...record, displacement: {x: cut(displacement, units.m), y}, velocity: {x: cut(velocity, units["m/s"]), y}};
 }
 
 // How the curves of a loop look, by their role.
@@ -32,25 +32,25 @@ function loop_style(role) {
 
 // `programs`: functions that give them, so that those alone run that the reader looks at. `records`: their samples are places
 // in those of the page.
-function document_sliders({models, records}) {
+function document_sliders({models, records}, units) {
   const velocity = new Plot("Force over velocity"), displacement = new Plot("Force over displacement");
   const controls = element("div"), words = element("p", {class: "note", "aria-live": "polite"}), leaves = element("p", {class: "beyond", role: "status"});
   let program, setting, parameters, own_damper, record, take_record, is_due = false, is_first = true;
 
   function draw() {
     is_due = false;
-    const loop = loop_of(program, setting, parameters), before = parameters === own_damper ? null : loop_of(program, setting, own_damper);
+    const loop = loop_of(program, setting, parameters, units), before = parameters === own_damper ? null : loop_of(program, setting, own_damper, units);
     const spec = (key, label) => () => ({
-      x: {label}, y: {label: "Force (N)"}, height: 320,
+      x: {label}, y: {label: `Force (${units.N.name})`}, height: 320,
       series: loop_curves(key, loop, before, record, program.model.interval?.level).map(({role, ...curve}) => ({...curve, ...loop_style(role)})),
     });
-    for (const [plot, key, label] of [[velocity, "velocity", "Velocity (mm/s)"], [displacement, "displacement", "Displacement (mm)"]]) {
+    for (const [plot, key, label] of [[velocity, "velocity", `Velocity (${units["m/s"].name})`], [displacement, "displacement", `Displacement (${units.m.name})`]]) {
       if (is_first) plot.show(spec(key, label)); else plot.move(spec(key, label));
     }
     is_first = false;
-    const outside = beyond(program.model, setting, parameters);
+    const outside = beyond(program.model, setting, parameters, units);
     leaves.textContent = outside.length ? `Outside the data: ${outside.join("; ")}. What is drawn there is extrapolated.` : "";
-    words.textContent = loop_words(loop);
+    words.textContent = loop_words(loop, units);
   }
   // However fast the handle moves, one drawing per frame.
   function redraw() {
@@ -60,19 +60,19 @@ function document_sliders({models, records}) {
 
   function take(index) {
     program = page_programs[models[index].program]();
-    const sliders = motion_sliders(program.model), own = parameter_sliders(program.model);
+    const sliders = motion_sliders(program.model, units), own = parameter_sliders(program.model);
     const nodes = [...sliders.map((slider) => slider_node(slider, (key, value) => { setting[key] = value; redraw(); })),
       ...own.map((slider) => slider_node(slider, (key, value) => { parameters = {...parameters, [key]: value}; redraw(); }))];
     // The sliders where the record has them, or in the middle of the data.
     const reset = () => {
-      setting = {...Object.fromEntries(sliders.map(({key, value}) => [key, value])), ...record ? motion_of(record) : {}};
+      setting = {...Object.fromEntries(sliders.map(({key, value}) => [key, value])), ...record ? motion_of(record, units) : {}};
       parameters = own_damper = record ? member_of(record, program.model) : {};
       [...sliders, ...own].forEach(({key, value}, k) => nodes[k].show(setting[key] ?? parameters[key] ?? value));
       is_first = true;
       redraw();
     };
     take_record = (place) => {
-      record = place === "" ? null : measured_loop(records[Number(place)]);
+      record = place === "" ? null : measured_loop(records[Number(place)], units);
       reset();
     };
     controls.replaceChildren(...nodes.slice(0, sliders.length).map(({node}) => node),
