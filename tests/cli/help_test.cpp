@@ -6,9 +6,9 @@
 
 namespace {
 
-const char* const kCommands[] = {"identify", "rank",    "search",     "evaluate",
-                                 "member",   "inspect", "models",     "track",
-                                 "bench",    "demo",    "completion", "version"};
+const char* const kCommands[] = {"identify",   "rank",    "search", "evaluate", "member",
+                                 "inspect",    "models",  "track",  "bench",    "demo",
+                                 "completion", "version", "observe"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);

@@ -107,7 +107,8 @@ std::string filter_code(const ObserverTables& t) {
 }
 
 /// A run of signals that are large beside the sensors' noise, and what the library makes of it.
-std::vector<CBlock::Sample> run_of(const PlantObserver& observer, const ObserverNames& names) {
+std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
+                                         const ObserverNames& names) {
   constexpr double kLoud = 10;
   const ObserverTables& t = observer.tables();
   const auto inputs = static_cast<std::size_t>(t.inputs), sensors = names.sensors.size();
@@ -236,7 +237,7 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
           .sample_time = t.step * t.steps,
           .range = 1,
           .tolerance = options.c_precision() == CPrecision::Double ? 1e-9 : 1e-3,
-          .samples = run_of(observer, names),
+          .samples = observer_run(observer, names),
           .scales = outputs.scales,
           .version = options.version};
 }
