@@ -33,7 +33,7 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   const ProgramResult made =
       run_dashpot("bench --in " + car + " --levels 1 --duration 3 --output " + rides);
   REQUIRE(made.exit_code == 0);
-  CHECK(contains(made.output, "1 rides of the quarter_car, 3 s each, at 1 V, on iso8608"));
+  CHECK(contains(made.output, "1 ride of the quarter_car, 3 s each, at 1 V, on iso8608"));
   CHECK(contains(read_file(rides + "/ride_1.csv"), "time [s],az_body [m/s^2],az_wheel [m/s^2]"));
   CHECK(contains(read_file(rides + "/truth/plant.json"), "\"tyre_stiffness\": 295200"));
 
@@ -72,6 +72,8 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
       "sprung_mass is known"));
   CHECK(contains(run_dashpot("bench --in " + car + " --motions 10x1 --output " + again).output,
                  "a plant is moved by its road or a force"));
+  CHECK(contains(run_dashpot("bench --grade exact --output " + again).output,
+                 "--grade: goes with --in"));
 
   // The same observer as C.
   const std::string c = (folder.path() / "ecu").string();
