@@ -96,6 +96,7 @@ int run_bench(BenchSettings& settings, Console& console) {
                      "leave it out");
   if (!settings.in_plant.plant.empty())
     return record_in_plant(settings.in_plant, settings.campaign, settings.folder, console);
+  require_no_plant(settings.in_plant);
 
   // One option for what scatters, builds of drawings or dampers of a line.
   if (std::isfinite(settings.scatter))

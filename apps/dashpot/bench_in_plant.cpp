@@ -11,6 +11,7 @@
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/record/record_file.h"
 #include "dashpot/report/provenance.h"
+#include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 namespace {
@@ -128,6 +129,16 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
            .noun = "grade"}};
 }
 
+void require_no_plant(const PlantBenchSettings& settings) {
+  const PlantBenchSettings usual;
+  for (const auto& [option, is_said] : {std::pair{"--true", !settings.truth.empty()},
+                                        {"--road", !settings.road.empty()},
+                                        {"--push", settings.push != usual.push},
+                                        {"--duration", settings.duration != usual.duration},
+                                        {"--grade", settings.grade != usual.grade}})
+    if (is_said) throw UsageError(option, "goes with --in");
+}
+
 int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& campaign,
                     const std::string& folder, Console& console) {
   // What the plant truly is, and the damper in it.
@@ -168,8 +179,8 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   std::string levels;
   for (const double level : options.levels)
     levels += (levels.empty() ? "" : ", ") + format_number(level);
-  console.print(std::to_string(rides.size()) + " rides of the " + std::string(setup.model->name) +
-                ", " + format_number(options.duration) + " s each, at " + levels + ' ' +
+  console.print(counted(rides.size(), "ride") + " of the " + std::string(setup.model->name) + ", " +
+                format_number(options.duration) + " s each, at " + levels + ' ' +
                 to_string(damper.model.drive_unit()) +
                 (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
                 "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +

@@ -17,9 +17,13 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_observer.h"
 #include "dashpot/export/fmu/fmu.h"
 #include "dashpot/export/tables/force_map.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/observe.h"
 #include "export_control.h"
+#include "observe_options.h"
 #include "units.h"
 
 namespace dashpot::cli {
@@ -32,6 +36,8 @@ struct ExportSettings {
   std::string name, precision, sample_time, folder = "dashpot-export", compiler;
   std::string velocities, currents, units;
   std::vector<std::string> platforms;
+  std::string plant;  ///< whose observer is exported
+  std::vector<std::string> force_errors;
   bool sources_only = false, tunable = false;
 };
 
@@ -59,7 +65,11 @@ constexpr std::string_view kExportExample =
     "# The current for a wanted force, and a skyhook that drives its damper by it:\n"
     "dashpot export --parameters spencer1997 --inverse numeric --to c -o ecu\n"
     "dashpot export --controller skyhook_modified --damper spencer1997 --inverse numeric --to c -o "
-    "ecu";
+    "ecu\n"
+    "\n"
+    "# A damper's force from a car's sensors, for an ECU:\n"
+    "dashpot export model.json --in car.yaml --force-error 28@0.005,5@0.5 --to c --precision float "
+    "-o ecu";
 
 std::vector<std::string> exporter_names() {
   std::vector<std::string> names;
@@ -129,10 +139,33 @@ void require_blocks(const ExportSettings& settings, const std::string& where,
                   "--to " + join(possible, ", "));
 }
 
+/// The observer of a plant with this damper in it.
+CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& options,
+                           Console& console) {
+  const InPlantSetup setup = read_in_plant_setup(settings.plant);
+  ModelFile file = load_damper_file(settings.damper, "export", console);
+  ObserveOptions observed;
+  observed.force = force_errors(settings.force_errors);
+  const double sample_time = options.sample_time > 0 ? options.sample_time
+                             : file.sample_time > 0  ? file.sample_time
+                                                     : 1e-3;
+  const std::shared_ptr<const DamperModel> damper = std::move(file.model);
+  auto observer = std::make_shared<const PlantObserver>(
+      make_observer(damper, file.domain, setup, sample_time, observed));
+  return [observer, names = observer_names(setup, *damper)](const ExportOptions& own) {
+    return c_observer_block(*observer, names, own);
+  };
+}
+
 /// Null: what is named is a damper.
 CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& options,
                          Console& console) {
   const VehicleChoice& vehicle = settings.vehicle;
+  if (!settings.plant.empty()) {
+    require_blocks(settings, settings.plant, "an observer");
+    return observer_block(settings, options, console);
+  }
+  if (!settings.force_errors.empty()) throw UsageError("--force-error", "goes with --in");
 
   // A controller takes its damper and sensors with it.
   if (!vehicle.controller.empty()) {
@@ -340,6 +373,15 @@ Command export_command() {
                     .help = "C whose parameters stand behind the state and may be set while it "
                             "runs: of a law, or of family_physics (gap, lengths, areas, viscosity, "
                             "yield stress, build); an FMU has them in any case"},
+
+                   // The observer of a plant.
+                   {.names = "--in",
+                    .target = &settings->plant,
+                    .help = "with C or an FMU: the observer of this plant with the damper in it "
+                            "('dashpot observe'), from sensors to force and motion",
+                    .value = "PLANT",
+                    .takes = Takes::File},
+                   force_error_option(settings->force_errors),
 
                    // The binary of an FMU.
                    {.names = "--compiler",

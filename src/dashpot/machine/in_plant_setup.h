@@ -45,6 +45,7 @@ struct PlantSensor {
   std::string channel;
   PlantSensorPlace place;
   double noise = 0;          ///< its standard deviation, SI; 0: unknown
+  double zero = 0;           ///< how far its zero may be off, likewise; 0: as far as its noise
   bool finds_delay = false;  ///< its delay is an unknown
   double delay = 0;          ///< s, known or where the search starts
 };

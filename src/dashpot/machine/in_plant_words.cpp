@@ -215,9 +215,9 @@ void read_parameters(InPlantSetup& setup, const Value& parameters) {
   }
 }
 
-/// The noise of a sensor or an input.
-double read_noise(ObjectReader& reader, std::string_view unit) {
-  const Value* noise = reader.optional("noise");
+/// The noise of a sensor or an input, or how far its zero may be off.
+double read_deviation(ObjectReader& reader, std::string_view key, std::string_view unit) {
+  const Value* noise = reader.optional(key);
   if (!noise) return 0;
   const double deviation = read_quantity(*noise, unit);
   if (deviation <= 0) throw Error(noise->where(), "is not above 0", "leave it out if unknown");
@@ -242,7 +242,7 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
   const std::string kind = reader.string("kind"), at = reader.string("at", "");
   const PlantInput* known = find_input(kind);
   if (input.channel.empty()) input.road = read_road(reader, kind, value);
-  if (known && !input.road) input.noise = read_noise(reader, unit_of_input(*known));
+  if (known && !input.road) input.noise = read_deviation(reader, "noise", unit_of_input(*known));
   reader.finish();
   if (!known)
     throw Error(value.where(), "unknown kind of input '" + kind + "'",
@@ -267,7 +267,8 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
     sensor.place.coordinate = coordinate_named(plant, at, value.where());
   else if (!at.empty())
     throw Error(value.where(), word + " is the damper's", "leave out 'at'");
-  sensor.noise = read_noise(reader, known->unit);
+  sensor.noise = read_deviation(reader, "noise", known->unit);
+  sensor.zero = read_deviation(reader, "zero", known->unit);
   if (const Value* delay = reader.optional("delay")) {
     sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
     if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
@@ -367,6 +368,7 @@ Value to_json(const InPlantSetup& setup) {
     one.add("quantity", word.word);
     if (word.of_coordinate) one.add("at", plant.coordinates[sensor.place.coordinate].name);
     if (sensor.noise > 0) one.add("noise", sensor.noise);
+    if (sensor.zero > 0) one.add("zero", sensor.zero);
     if (sensor.finds_delay)
       one.add("delay", "unknown");
     else if (sensor.delay != 0)

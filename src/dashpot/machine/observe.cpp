@@ -12,6 +12,7 @@
 #include "dashpot/machine/plant_smoother.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/minimise.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/road_profile.h"
 
 namespace dashpot {
@@ -304,6 +305,15 @@ void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup
   }
 }
 
+/// The damper in equilibrium at rest, where the springs bear what it has there.
+std::shared_ptr<const DamperModel> mounted(std::shared_ptr<const DamperModel> damper,
+                                           double drive) {
+  constexpr double kNothing = 1e-6;  // N
+  const double rest = force_at_rest(*damper, drive);
+  if (!(std::abs(rest) > kNothing)) return damper;
+  return damper->with_offset(-rest);
+}
+
 }  // namespace
 
 ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
@@ -313,12 +323,18 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
   require_setup(setup);
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
   ObserveReport report;
+  damper = mounted(
+      std::move(damper),
+      setup.drive.empty() ? setup.level : recordings.front().channel(setup.drive).samples.front());
 
   // How large things are, and what is uncertain.
   ObserverScale scale = observer_scale(*damper, domain);
   for (const PlantSensor& sensor : setup.sensors)
-    scale.offset.push_back(kOffsetShare *
-                           rms_of(recordings.front().channel(sensor.channel).samples));
+    scale.offset.push_back(sensor.zero > 0 ? sensor.zero
+                           : sensor.noise > 0
+                               ? sensor.noise
+                               : kOffsetShare *
+                                     rms_of(recordings.front().channel(sensor.channel).samples));
   std::vector<ObservedSamples> samples;
   for (const PlantRecording& recording : recordings)
     samples.push_back(samples_of(setup, recording));
@@ -371,10 +387,11 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
 }
 
 PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
-                            const InPlantSetup& setup, double sample_time,
-                            const ObserveOptions& options) {
+                            InPlantSetup setup, double sample_time, const ObserveOptions& options) {
   constexpr double kLate = 0.1;  // of a sample
   require_setup(setup);
+  setup.from_rest = true;
+  damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
   ObserverScale scale = observer_scale(*damper, domain);
   ObserverNoise noise;
   if (options.force.empty())
@@ -390,7 +407,7 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
                       " ms late: a filter that runs with the plant cannot bring it forward",
                   "delay the other sensors as much before the filter, and leave 'delay' out");
     noise.sensors.push_back(sensor.noise);
-    scale.offset.push_back(10 * sensor.noise);
+    scale.offset.push_back(sensor.zero > 0 ? sensor.zero : sensor.noise);
   }
   for (const PlantInputChannel& input : setup.inputs)
     if (input.road) {

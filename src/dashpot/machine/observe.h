@@ -59,15 +59,16 @@ struct ObserveReport {
 /// not stated of the uncertainties (the model's error, sensors' noise, the road's class) is that
 /// under which the recordings are most likely; every sensor's stated delay is taken off. Throws
 /// Error before long work where a number of the plant is unknown, where a recording is too short,
-/// where the damper's model cannot be followed. The domain is that of the damper's data.
+/// where the damper's model cannot be followed. The domain is that of the damper's data; what the
+/// damper has at rest is taken off, since the springs bear it.
 ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                       const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                       const ObserveOptions& options);
 
-/// The filter alone, with all uncertainties stated: what an ECU runs at this sample time. Sensors
+/// The filter alone, with all uncertainties stated: what an ECU runs at this sample time, switched
+/// on while the plant stands. (From anywhere, single precision would lose its covariance.) Sensors
 /// without a noise, or late by more than a tenth of a sample, are refused.
 PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
-                            const InPlantSetup& setup, double sample_time,
-                            const ObserveOptions& options);
+                            InPlantSetup setup, double sample_time, const ObserveOptions& options);
 
 }  // namespace dashpot

@@ -140,7 +140,10 @@ std::vector<std::string> measured_inputs(const InPlantSetup& setup) {
   return channels;
 }
 
-ObserverScale observer_scale(const DamperModel& damper, const Domain& domain) {
+ObserverScale observer_scale(const DamperModel& damper, const Domain& of_data) {
+  const bool says_motion = of_data.velocity_max > of_data.velocity_min;
+  const Domain domain =
+      says_motion ? of_data : usual_domain(of_data.current_min, of_data.current_max);
   ObserverScale scale;
   scale.stroke =
       std::max({std::abs(domain.displacement_min), std::abs(domain.displacement_max), 1e-6});
@@ -238,7 +241,7 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
     if (inputs[u].noise > 0) add(response(u, 1, 1), moving, inputs[u].noise * inputs[u].noise);
 
   // The steps of differences, and a trace of uncertainty so that nothing counts as exact.
-  constexpr double kDifference = 1e-3, kTrace = 1e-6;
+  constexpr double kDifference = 1e-3, kTrace = 1e-4;
   for (std::size_t k = 0; k < p; ++k)
     t.difference.push_back(kDifference * (k < n ? scale.stroke : scale.speed));
   for (std::size_t r = 0; r < roads; ++r) t.difference.push_back(kDifference * scale.stroke);

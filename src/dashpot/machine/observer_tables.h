@@ -27,7 +27,7 @@ struct ObserverScale {
   std::vector<double> state;                ///< of each number of the damper's state
   std::vector<double> offset;               ///< per sensor
 };
-/// By moving the model through its domain.
+/// By moving the model through its domain, or usual_domain() where that says no motion.
 ObserverScale observer_scale(const DamperModel& damper, const Domain& domain);
 
 /// The filter of this plant. Heights of a road that nothing measures follow

@@ -208,11 +208,14 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
       if (!input.road)
         add_channel(ride.recorded, input.channel, unit, with_noise(values, input.noise, noise));
     }
-    for (std::size_t s = 0; s < setup.sensors.size(); ++s)
-      add_channel(
-          ride.recorded, setup.sensors[s].channel, unit_of(setup.sensors[s].place.quantity),
-          with_noise(sampled(shown[s], samples, setup.sensors[s].delay / driving.sample_time),
-                     setup.sensors[s].noise, noise));
+    for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+      const PlantSensor& sensor = setup.sensors[s];
+      const double zero = (sensor.zero > 0 ? sensor.zero : sensor.noise) * noise.normal();
+      std::vector<double> values = sampled(shown[s], samples, sensor.delay / driving.sample_time);
+      for (double& value : values) value += zero;
+      add_channel(ride.recorded, sensor.channel, unit_of(sensor.place.quantity),
+                  with_noise(std::move(values), sensor.noise, noise));
+    }
     if (!setup.drive.empty())
       add_channel(ride.recorded, setup.drive, to_string(setup.drive_unit),
                   std::vector<double>(samples, level));

@@ -43,9 +43,10 @@ struct VirtualRide {
 };
 
 /// Runs this plant, all of whose numbers are known, with this damper, in equilibrium at rest: the
-/// classical Runge-Kutta method, 40 steps per sample. Sensors are late by their delays and have the
-/// noise that is stated. The same seed gives the same rides. Throws Error where a number is
-/// unknown, where the damper's states have no rates, and where a ride diverges.
+/// classical Runge-Kutta method, 40 steps per sample. Sensors are late by their delays, have the
+/// noise that is stated, and in each ride a zero that is off at random. The same seed gives the
+/// same rides. Throws Error where a number is unknown, where the damper's states have no rates, and
+/// where a ride diverges.
 std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const DamperModel& damper,
                                           const VirtualCampaignOptions& options);
 

@@ -24,7 +24,7 @@ constexpr const char* kBlockTest =
 /* what is known, field by field; the commands; 1 where they make a difference */
 static const double kRun[STEPS][INPUTS + COMMANDS + 1] = {
 @rows@};
-
+@scales@
 static void read_input(const double* row, damper_input* input) {
 @reads@}
 
@@ -41,7 +41,7 @@ int main(void) {
     }
     @step@
     for (j = 0; j < COMMANDS; ++j) {
-      const double difference = fabs(commands[j] - kRun[k][INPUTS + j]);
+      const double difference = fabs(commands[j] - kRun[k][INPUTS + j])@scaled@;
       if (!(difference <= @range@)) {
         return 2;
       }
@@ -98,16 +98,19 @@ std::vector<ExportedFile> c_block_sources(const CBlock& block, const std::string
 
 std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& command) {
   std::vector<ExportedFile> files = c_block_sources(block, block.name, command);
-  const std::string test = filled(
-      kBlockTest, {{"version", c_comment(block.version)},
-                   {"steps", CText::own(std::to_string(block.samples.size()))},
-                   {"inputs", CText::own(std::to_string(block.samples.front().inputs.size()))},
-                   {"commands", CText::own(std::to_string(block.samples.front().commands.size()))},
-                   {"reads", CText::own(c_block_reads(block))},
-                   {"step", CText::own(block.step)},
-                   {"range", CText::own(c_number(block.range))},
-                   {"tolerance", CText::own(c_number(block.tolerance))},
-                   {"rows", CText::own(rows_of(block))}});
+  const std::string test =
+      filled(kBlockTest,
+             {{"version", c_comment(block.version)},
+              {"steps", CText::own(std::to_string(block.samples.size()))},
+              {"inputs", CText::own(std::to_string(block.samples.front().inputs.size()))},
+              {"commands", CText::own(std::to_string(block.samples.front().commands.size()))},
+              {"reads", CText::own(c_block_reads(block))},
+              {"step", CText::own(block.step)},
+              {"range", CText::own(c_number(block.range))},
+              {"tolerance", CText::own(c_number(block.tolerance))},
+              {"scaled", CText::own(block.scales.empty() ? "" : " / kScales[j]")},
+              {"scales", CText::own(block.scales.empty() ? "" : c_table("kScales", block.scales))},
+              {"rows", CText::own(rows_of(block))}});
   files.push_back({block.name + "_test.c", finished(block, test, block.name, command)});
   return files;
 }

@@ -42,6 +42,8 @@ struct CBlock {
   double range = 0;             ///< largest less least command
   double tolerance = 1e-12;     ///< share of the range within which the commands agree
   std::vector<Sample> samples;  ///< a run from rest
+  /// Per command, what its difference counts by, for commands of several units; empty: 1 each.
+  std::vector<double> scales = {};
   std::string version;
 };
 

@@ -185,12 +185,12 @@ static inline void filter_by_state(const PlantFilter* f, const DamperInput* firs
   int i, k, side;
   for (k = 0; (k < width) && (f->damper > 0); ++k) {
     const double by_much = (k < 4) ? reach[k % 2] : reach[k - 2];
-    double after[2][FILTER_MOST];
+    double after[2 * FILTER_MOST_DAMPER];
     for (side = 0; side < 2; ++side) {
       const double sign = (side == 0) ? 1 : -1;
       DamperInput from = *first, to = *last;
       for (i = 0; i < f->damper; ++i) {
-        after[side][i] = z[i];
+        after[(side * FILTER_MOST_DAMPER) + i] = z[i];
       }
       if (k == 0) {
         from.displacement += sign * by_much;
@@ -201,12 +201,12 @@ static inline void filter_by_state(const PlantFilter* f, const DamperInput* firs
       } else if (k == 3) {
         to.velocity += sign * by_much;
       } else {
-        after[side][k - 4] += sign * by_much;
+        after[(side * FILTER_MOST_DAMPER) + k - 4] += sign * by_much;
       }
-      filter_advance(f, &from, &to, f->step, after[side]);
+      filter_advance(f, &from, &to, f->step, &after[side * FILTER_MOST_DAMPER]);
     }
     for (i = 0; i < f->damper; ++i) {
-      by[(i * width) + k] = (after[0][i] - after[1][i]) / (2 * by_much);
+      by[(i * width) + k] = (after[i] - after[FILTER_MOST_DAMPER + i]) / (2 * by_much);
     }
   }
 }
@@ -285,13 +285,16 @@ static inline void filter_move_column(const PlantFilter* f, const double* by_fir
 static inline void filter_move(const PlantFilter* f, const double* before, const double* now,
                                const double* reach, double* s, double* transition) {
   double slopes[FILTER_MOST_INPUTS + 1], from[FILTER_MOST_INPUTS + 1], to[FILTER_MOST_INPUTS + 1];
-  double end[FILTER_MOST], z[FILTER_MOST], by_first[FILTER_MOST], by_last[FILTER_MOST];
+  double end[FILTER_MOST], z[FILTER_MOST_DAMPER], by_first[FILTER_MOST], by_last[FILTER_MOST];
   double by_state[FILTER_MOST_DAMPER * (FILTER_MOST_DAMPER + 4)];
   const int error = filter_error(f), own = filter_own(f), moving = filter_moving(f);
   int j, k, step;
   filter_slopes(f, before, now, slopes);
   for (k = 0; k <= f->inputs; ++k) {
     to[k] = before[k];
+  }
+  for (k = 0; k < FILTER_MOST_DAMPER; ++k) {
+    z[k] = 0;
   }
   for (k = 0; k < moving; ++k) {
     for (j = 0; j < moving; ++j) {

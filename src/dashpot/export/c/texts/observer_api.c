@@ -1,0 +1,70 @@
+static inline double filter_force(const PlantFilter* f, const DamperInput* input, const double* z) {
+  (void)f;
+  return OBSERVED_FORCE(input, z);
+}
+
+static inline void filter_advance(const PlantFilter* f, const DamperInput* from,
+                                  const DamperInput* to, double dt, double* z) {
+  (void)f;
+  OBSERVED_ADVANCE(from, to, dt, z);
+}
+
+/* The inputs with the drive behind them; one that is no number as it was. */
+static void observer_inputs(const damper_input* input, const double* before, double* now) {
+  int k;
+  for (k = 0; k <= kFilter.inputs; ++k) {
+    const double value = (k < kFilter.inputs) ? input->inputs[k] : input->drive;
+    now[k] = (fabs(value) < 1e30) ? value : before[k];
+  }
+}
+
+void damper_init(damper_model* model) {
+  int k;
+  model->started = 0;
+  for (k = 0; k < DAMPER_STATE_SIZE; ++k) {
+    model->state[k] = 0;
+  }
+}
+
+void damper_reset(damper_model* model, const damper_input* input) {
+  double* c = &model->state[FILTER_MOST];
+  double* before = &model->state[FILTER_MOST + (FILTER_MOST * FILTER_MOST)];
+  DamperInput still;
+  int k;
+  damper_init(model);
+  model->started = 1;
+  observer_inputs(input, before, before);
+  still.displacement = 0;
+  still.velocity = 0;
+  still.current = before[kFilter.inputs];
+  OBSERVED_REST(&still, &model->state[filter_own(&kFilter)]);
+  for (k = 0; k < FILTER_MOST; ++k) {
+    c[(k * FILTER_MOST) + k] = kFirstDeviation[k] * kFirstDeviation[k];
+  }
+}
+
+void damper_step(damper_model* model, const damper_input* input, double* outputs) {
+  double* s = model->state;
+  double* c = &model->state[FILTER_MOST];
+  double* before = &model->state[FILTER_MOST + (FILTER_MOST * FILTER_MOST)];
+  double now[FILTER_MOST_INPUTS + 1];
+  FilterSample sample;
+  int k;
+  if (model->started == 0) {
+    damper_reset(model, input);
+  }
+  observer_inputs(input, before, now);
+  if (model->started == 1) {
+    model->started = 2;
+  } else {
+    filter_predict(&kFilter, before, now, s, c, sample.transition);
+  }
+  filter_update(&kFilter, before, now, input->sensors, s, c, &sample);
+  filter_damper(&kFilter, before, now, s, c, outputs);
+  for (k = 0; k < filter_error(&kFilter); ++k) {
+    outputs[4 + k] = s[k];
+  }
+  for (k = 0; k <= kFilter.inputs; ++k) {
+    before[k] = now[k];
+  }
+}

@@ -1,0 +1,89 @@
+#include "dashpot/base/file.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/model_file.h"
+#include "dashpot/value.h"
+#include "program.h"
+
+using namespace dashpot;
+
+namespace {
+
+const char* const kRoadlessCar =
+    "plant: quarter_car\n"
+    "parameters:\n"
+    "  unsprung_mass: 139.5 kg\n"
+    "  spring_stiffness: 37300 N/m\n"
+    "  sprung_mass: 387 kg\n"
+    "  tyre_stiffness: unknown\n"
+    "inputs:\n"
+    "  - {kind: ground, class: C, speed: 20 m/s}\n"
+    "sensors:\n"
+    "  - {channel: az_body, quantity: acceleration, at: body}\n"
+    "  - {channel: az_wheel, quantity: acceleration, at: wheel}\n"
+    "  - {channel: level, quantity: deflection}\n"
+    "voltage: coil\n";
+
+}  // namespace
+
+TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor showed") {
+  const TemporaryFolder folder;
+  const std::string car = folder.write("car.yaml", kRoadlessCar).string(),
+                    rides = (folder.path() / "rides").string(),
+                    seen = (folder.path() / "seen").string();
+  const ProgramResult made =
+      run_dashpot("bench --in " + car + " --levels 1 --duration 3 --output " + rides);
+  REQUIRE(made.exit_code == 0);
+  CHECK(contains(made.output, "1 ride of the quarter_car, 3 s each, at 1 V, on iso8608"));
+  CHECK(contains(read_file(rides + "/ride_1.csv"), "time [s],az_body [m/s^2],az_wheel [m/s^2]"));
+  CHECK(contains(read_file(rides + "/truth/plant.json"), "\"tyre_stiffness\": 295200"));
+
+  // The same seed gives the same files.
+  const std::string again = (folder.path() / "again").string();
+  run_dashpot("bench --in " + car + " --levels 1 --duration 3 --output " + again);
+  CHECK(read_file(again + "/ride_1.csv") == read_file(rides + "/ride_1.csv"));
+
+  const std::string model = (folder.path() / "spencer.json").string();
+  save_model(to_model_file(load_parameter_set("spencer1997")), model);
+  const std::string with = "observe " + model + " --in " + rides + "/truth/plant.json " + rides +
+                           "/ride_1.csv --truth " + rides + "/truth --force-error 5@0.01";
+  const ProgramResult result = stdout_of_dashpot(with + " --output " + seen + " --json");
+  REQUIRE(result.exit_code == 0);
+  const Value report = parse_json(result.output, "stdout");
+  const Value& force = report.find("truth")->items()[0];
+  CHECK(force.find("quantity")->as_string() == "damper_force");
+  CHECK(force.find("error")->as_number() < 0.01 * force.find("span")->as_number());
+  CHECK(force.find("inside")->as_number() > 0.6);
+  CHECK(contains(read_file(seen + "/report.html"), "A plant observed"));
+  CHECK(contains(read_file(seen + "/ride_1_observed.csv"),
+                 "time [s],damper_force [N],damper_force_half_band [N]"));
+
+  // What cannot be used.
+  CHECK(contains(
+      run_dashpot("observe " + model + " --in " + car + ' ' + rides + "/ride_1.csv").output,
+      "tyre_stiffness: is unknown"));
+  CHECK(contains(run_dashpot(with + ",x@1").output, "--force-error: is 'x@1'; newtons @ seconds"));
+  CHECK(contains(run_dashpot("observe " + model + ' ' + rides + "/ride_1.csv").output,
+                 "--in: is missing"));
+  CHECK(contains(
+      run_dashpot("identify " + rides + "/ride_1.csv --in " + car + " --models dahl").output,
+      "nothing measures the road"));
+  CHECK(contains(
+      run_dashpot("bench --in " + car + " --true sprung_mass=300kg --output " + again).output,
+      "sprung_mass is known"));
+  CHECK(contains(run_dashpot("bench --in " + car + " --motions 10x1 --output " + again).output,
+                 "a plant is moved by its road or a force"));
+  CHECK(contains(run_dashpot("bench --grade exact --output " + again).output,
+                 "--grade: goes with --in"));
+
+  // The same observer as C.
+  const std::string c = (folder.path() / "ecu").string();
+  const ProgramResult exported =
+      run_dashpot("export " + model + " --in " + rides +
+                  "/truth/plant.json --force-error 5@0.01 --to c --name cell --output " + c);
+  CHECK(exported.exit_code == 0);
+  CHECK(contains(read_file(c + "/cell.h"), "Sensors: az_body (m/s^2), az_wheel (m/s^2)"));
+  CHECK(contains(
+      run_dashpot("export " + model + " --in " + rides + "/truth/plant.json --to c --output " + c)
+          .output,
+      "--force-error: is not stated; what 'dashpot observe' prints"));
+}

@@ -1,0 +1,235 @@
+#include "dashpot/machine/observe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/plant_smoother.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+const std::string kObservedCar =
+    "plant: quarter_car\n"
+    "parameters:\n"
+    "  unsprung_mass: 139.5 kg\n"
+    "  spring_stiffness: 37300 N/m\n"
+    "  sprung_mass: 387 kg\n"
+    "  tyre_stiffness: 295200 N/m\n"
+    "inputs:\n"
+    "  - {kind: ground, class: C, speed: 20 m/s}\n"
+    "sensors:\n"
+    "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
+    "  - {channel: az_wheel, quantity: acceleration, at: wheel, noise: 0.5}\n"
+    "  - {channel: level, quantity: deflection, noise: 0.2 mm, delay: 2 ms}\n"
+    "voltage: 1 V\n";
+
+struct ObservedRide {
+  InPlantSetup setup;
+  Record truth;
+  PlantRecording recorded;
+};
+
+ObservedRide spencer_ride(const std::string& file, double seconds) {
+  const InPlantSetup setup = parse_in_plant_setup(file, "car.yaml");
+  VirtualCampaignOptions options{.duration = seconds,
+                                 .levels = {setup.level},
+                                 .road = "iso8608,class=C,speed=20m/s",
+                                 .seed = 3};
+  const std::vector<VirtualRide> rides =
+      virtual_campaign(setup, load_parameters("spencer1997"), options);
+  return {setup,
+          rides.front().truth,
+          {.name = "ride",
+           .sample_time = rides.front().recorded.sample_time,
+           .samples = rides.front().recorded.size(),
+           .channels = rides.front().recorded.channels}};
+}
+
+/// rms error of the first quantity over its span, and the share of samples in its band, after 1 s.
+std::pair<double, double> judged(const ObserveReport& report, const Record& truth) {
+  const ObservedQuantity& force = report.recordings.front().quantities.front();
+  const std::vector<double>& f = truth.channel("damper_force").samples;
+  double square = 0, inside = 0, count = 0, low = INFINITY, high = -INFINITY;
+  for (std::size_t k = 500; k < f.size(); ++k) {
+    square += std::pow(f[k] - force.value[k], 2);
+    inside += std::abs(f[k] - force.value[k]) <= force.half[k];
+    count += 1;
+    low = std::min(low, f[k]);
+    high = std::max(high, f[k]);
+  }
+  return {std::sqrt(square / count) / (high - low), inside / count};
+}
+
+const Domain kCarDomain = {-0.04, 0.04, -1, 1, 0, 2};
+
+/// What 'identify --in' finds of spencer1997 at 1 V, which is of another structure: no memory.
+std::shared_ptr<const DamperModel> tanh_of_spencer() {
+  const Law& law = find_law("tanh_kwok");
+  std::vector<double> p(law.params.size());
+  for (const auto& [name, value] :
+       {std::pair{"c", 2234.0}, {"k", 4174.0}, {"alpha", 500.6}, {"beta", 42.2}, {"delta", 0.0244}})
+    p[law.index_of(name)] = value;
+  return std::make_shared<LawModel>(LawModel::constant(law, p));
+}
+
+}  // namespace
+
+TEST_CASE("observe: the force of a damper of another structure, the road not measured") {
+  const ObservedRide ride = spencer_ride(kObservedCar, 4);
+  ObserveOptions options;
+  options.force = {{28, 0.005}, {20, 0.3}};
+  const ObserveReport smoothed =
+      observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, options);
+  CHECK(smoothed.recordings[0].quantities[0].name == "damper_force");
+  CHECK_FALSE(smoothed.noise_was_found);
+  const auto [error, inside] = judged(smoothed, ride.truth);
+  CHECK(error < 0.01);
+  CHECK(inside > 0.75);
+  CHECK(inside < 0.99);
+
+  // From the past alone it is known less well, and both beat the model by itself by far.
+  options.causal = true;
+  const auto [causal_error, causal_inside] = judged(
+      observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, options), ride.truth);
+  CHECK(causal_error > error);
+  CHECK(causal_error < 0.02);
+  CHECK(causal_inside > 0.6);
+}
+
+TEST_CASE("observe: with the true damper, whose states are in the filter, its memory is known") {
+  const ObservedRide ride = spencer_ride(kObservedCar, 3);
+  ObserveOptions options;
+  options.force = {{2, 0.01}};
+  const ObserveReport report = observe(std::make_shared<LawModel>(load_parameters("spencer1997")),
+                                       kCarDomain, ride.setup, {ride.recorded}, options);
+  const auto [error, inside] = judged(report, ride.truth);
+  CHECK(error < 0.006);
+  CHECK(inside > 0.7);
+  CHECK(report.warnings.empty());
+}
+
+TEST_CASE("observe: a shift of road and car together is no motion that a sensor could show") {
+  const InPlantSetup setup = parse_in_plant_setup(kObservedCar, "car.yaml");
+  const auto damper = tanh_of_spencer();
+  ObserverScale scale = observer_scale(*damper, kCarDomain);
+  scale.offset.assign(3, 1e-3);
+  const ObserverNoise noise{
+      .force = {{28, 0.005}}, .sensors = {0.05, 0.5, 2e-4}, .roughness = 256e-6};
+  ObserverTables tables = observer_tables(setup, *damper, noise, scale, 0.002, 2);
+  CHECK(tables.road_keep < 1);
+  tables.road_keep = 1;
+  const PlantObserver observer(tables, damper);
+  const std::size_t all = tables.all(), moving = tables.moving();
+  std::vector<double> s(all), c(all * all), input = {1};
+  ObservedSample told;
+  observer.start(input, std::vector<double>{0.3, -1, 0.01}, {}, s, c, told);
+  for (int k = 0; k < 20; ++k)
+    observer.step(input, input, std::vector<double>{0.3 - 0.1 * k, -1.0 + k, 0.01}, s, c, told);
+  for (std::size_t i = 0; i < moving; ++i) {
+    const double* row = &told.transition[i * moving];
+    const bool is_height = i < 2 || i == 4;
+    CHECK_CLOSE(row[0] + row[1] + row[4], is_height ? 1 : 0, 0, 1e-9);
+  }
+  for (std::size_t sensor = 0; sensor < 3; ++sensor) {
+    const double* row = &told.rows[sensor * all];
+    CHECK_CLOSE(row[0] + row[1] + row[4], 0, 0, 1e-9 * (1 + std::abs(row[4])));
+  }
+}
+
+TEST_CASE("smooth: what one sample says of another instant is what that says of its own") {
+  const InPlantSetup setup = parse_in_plant_setup(
+      "plant: oscillator\nparameters: {mass: 1 kg, damping: 0, stiffness: 100 N/m}\n"
+      "inputs: [{channel: push, kind: force, at: mass}]\n"
+      "sensors: [{channel: x, quantity: displacement, at: mass, noise: 1 mm, zero: 1e-9}]\n",
+      "oscillator.yaml");
+  const Law& law = find_law("tanh_kwok");  // here a dashpot
+  std::vector<double> p(law.params.size());
+  p[law.index_of("c")] = 2;
+  p[law.index_of("beta")] = 1;
+  const auto damper = std::make_shared<LawModel>(LawModel::constant(law, p));
+  ObserverScale scale = observer_scale(*damper, {-0.1, 0.1, -1, 1, 0, 0});
+  scale.offset = {1e-9};
+  const PlantObserver observer(
+      observer_tables(setup, *damper, {.force = {{1, 0.1}}, .sensors = {1e-3}}, scale, 0.01, 1),
+      damper);
+  constexpr std::size_t kCount = 30;
+  ObservedSamples samples{.count = kCount, .inputs = 1, .sensors = 1, .driven = {}, .measured = {}};
+  for (std::size_t k = 0; k < kCount; ++k) {
+    samples.driven.insert(samples.driven.end(), {std::sin(0.3 * static_cast<double>(k)), 0.0});
+    samples.measured.push_back(0.01 * std::cos(0.5 * static_cast<double>(k)));
+  }
+  const std::size_t all = observer.tables().all();
+  const ObservedRun before = filtered(observer, samples);
+  ObservedRun run = before;
+  smooth(observer, run);
+
+  // The last estimate knew all samples already; the others know more than they did.
+  for (std::size_t k = 0; k < all; ++k)
+    CHECK(run.estimates[(kCount - 1) * all + k] == before.estimates[(kCount - 1) * all + k]);
+  for (std::size_t k = 0; k < kCount - 1; ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      CHECK(run.covariances[(k * all + i) * all + i] <=
+            before.covariances[(k * all + i) * all + i] * (1 + 1e-9));
+
+  // Of a linear plant, an estimate follows a sample by the covariance of both over the noise's.
+  const auto moved = [&](std::size_t which, std::size_t at) {
+    constexpr double kStep = 1e-4;
+    ObservedSamples other = samples;
+    other.measured[which] += kStep;
+    ObservedRun its = filtered(observer, other);
+    smooth(observer, its);
+    return (its.estimates[at * all] - run.estimates[at * all]) / kStep;
+  };
+  for (const std::size_t at : {0u, 10u})
+    for (const std::size_t which : {3u, 25u})
+      CHECK_CLOSE(moved(which, at), moved(at, which), 1e-6, 1e-9);
+  CHECK_CLOSE(moved(12, 12), run.covariances[12 * all * all] / 1e-6, 1e-5, 0);
+}
+
+TEST_CASE("observe: what cannot be is said with what would be right") {
+  const ObservedRide ride = spencer_ride(kObservedCar, 1);
+  const auto damper = tanh_of_spencer();
+  ObserveOptions options;
+  options.force = {{28, 0.005}};
+  InPlantSetup unknown = ride.setup;
+  unknown.known.erase(unknown.known.begin());
+  unknown.unknown = {{"unsprung_mass", 10, 300, {}}};
+  CHECK(
+      contains(message_of([&] { observe(damper, kCarDomain, unknown, {ride.recorded}, options); }),
+               "unsprung_mass: is unknown; its value: 'dashpot identify --in' writes"));
+  PlantRecording brief = ride.recorded;
+  brief.samples = 20;
+  CHECK(contains(message_of([&] { observe(damper, kCarDomain, ride.setup, {brief}, options); }),
+                 "has 20 samples; 100 or more"));
+  CHECK(contains(message_of([&] { make_observer(damper, kCarDomain, ride.setup, 0.002, options); }),
+                 "level: is 2 ms late: a filter that runs with the plant cannot bring it forward"));
+  CHECK(contains(message_of([&] { require_measured(ride.setup); }), "nothing measures the road"));
+}
+
+TEST_CASE("a plant's file: a road that nothing measures, and the file that it becomes") {
+  const InPlantSetup setup = parse_in_plant_setup(kObservedCar, "car.yaml");
+  REQUIRE(setup.inputs[0].road);
+  CHECK(setup.inputs[0].road->roughness == 256e-6);
+  CHECK(setup.inputs[0].road->speed == 20);
+  CHECK(setup.channels() == std::vector<std::string>{"az_body", "az_wheel", "level"});
+  const InPlantSetup again = parse_in_plant_setup(format_json(to_json(setup)), "again.json");
+  CHECK(format_json(to_json(again)) == format_json(to_json(setup)));
+  CHECK(again.sensors[2].delay == 0.002);
+  CHECK(again.level == 1);
+  const auto refused = [](const std::string& input) {
+    std::string text = kObservedCar;
+    const std::string old = "{kind: ground, class: C, speed: 20 m/s}";
+    return message_of(
+        [&] { parse_in_plant_setup(text.replace(text.find(old), old.size(), input), "car.yaml"); });
+  };
+  CHECK(contains(refused("{kind: force, at: body}"), "only a road may be without: kind: ground"));
+  CHECK(contains(refused("{kind: ground, class: X, speed: 20 m/s}"), "unknown class 'X'"));
+  CHECK(contains(refused("{kind: ground, class: C}"), "speed"));
+}
