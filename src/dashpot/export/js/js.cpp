@@ -82,7 +82,7 @@ function force(state, displacement, velocity, current) {
 )";
 
 /// Of a family by physics: what plate flow alone says of the same damper.
-constexpr const char* kPlateFlow = R"(
+constexpr const char* kFlowInterface = R"(
 function plate_flow(state, displacement, velocity, current) {
   take(state, displacement, velocity, current);
   return family_plate_flow($input, $model + model.inputs.length);
@@ -187,7 +187,7 @@ std::string definitions(const ExportedModel& model, const ExportOptions& options
 
   return "const model = " + js_value(about(model, options, size)).text() + ";\n" + code.text +
          "const $model = " + std::to_string(code.room) + ", $input = $model + model.state_size;\n" +
-         std::string(kInterface) + (has_flow ? kPlateFlow : "");
+         std::string(kInterface) + (has_flow ? kFlowInterface : "");
 }
 
 std::string names_of(const DamperModel& model) {
