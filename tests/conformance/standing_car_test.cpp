@@ -1,4 +1,5 @@
 #include <cmath>
+#include <span>
 
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/passive_network/passive_network_example.h"
@@ -145,7 +146,7 @@ TEST_CASE(
   const TemporaryFolder folder;
   IdentifyOptions options;
 
-  // Mounts a fit that passes as a user does.
+  // Mounts a fit that passes as a user does: a law in one car, as its set holds in any.
   const auto check = [&](const std::string& name, std::initializer_list<std::string> steps,
                          std::initializer_list<double> currents) {
     CAPTURE(name);
@@ -156,7 +157,7 @@ TEST_CASE(
     if (!passes) return false;
     const std::string file = (folder.path() / (name + ".json")).string();
     save_model({.model = fit.model->with_offset(0), .domain = domain}, file);
-    for (const std::string plant : kPlants)
+    for (const std::string plant : std::span(kPlants).first(is_law(name) ? 1 : kPlants.size()))
       for (const std::string& step : steps)
         for (const double current : currents) {
           CAPTURE(plant);
