@@ -17,7 +17,7 @@ constexpr std::size_t kAmplitudes = 4, kDrives = 5;
 
 // For what is unproven, as well: where bodies of cars move, and beyond the data.
 constexpr std::array kMoreFrequencies{1.7, 5.0};  // Hz
-constexpr std::size_t kCloseAmplitudes = 8;
+constexpr std::size_t kCloseAmplitudes = 12;
 constexpr std::array kBeyond{3.0, 20.0};  // times the data's
 
 constexpr int kMostCycles = 12;  // until two are alike

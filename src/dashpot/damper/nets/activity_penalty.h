@@ -44,7 +44,7 @@ class ActivityPenalty {
   }
 
  private:
-  static constexpr double kMargin = 1e-3;            // where a verdict asks for -1e-3
+  static constexpr double kMargin = 0.01;            // where a verdict asks for -1e-3
   static constexpr std::size_t kSettlingCycles = 3;  // before the one that counts
 
   struct Probe {

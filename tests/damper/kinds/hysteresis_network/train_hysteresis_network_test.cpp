@@ -58,9 +58,9 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
 }
 
 TEST_CASE("the gradient is that of the cost with the penalty of energy that is fed in") {
-  std::vector<ProbeSine> sines;  // every 13th of a verdict's, quick and slow, small and beyond
+  std::vector<ProbeSine> sines;  // every 67th of a verdict's, quick and slow, small and beyond
   const auto all = probe_sines({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, false, true);
-  for (std::size_t k = 0; k < all.size(); k += 13) sines.push_back(all[k]);
+  for (std::size_t k = 0; k < all.size(); k += 67) sines.push_back(all[k]);
   const ActivityPenalty penalty(sines, 0.5);
   const HysteresisNetworkTrainOptions free{.weight_decay = 0.01},
       paid{.weight_decay = 0.01, .penalty = &penalty};

@@ -54,9 +54,9 @@ TEST_CASE("the gradient is that of the cost over windows, encoder included") {
 }
 
 TEST_CASE("the gradient is that of the cost with the penalty of energy that is fed in") {
-  std::vector<ProbeSine> sines;  // every 13th of a verdict's, quick and slow, small and beyond
+  std::vector<ProbeSine> sines;  // every 67th of a verdict's, quick and slow, small and beyond
   const auto all = probe_sines({-0.02, 0.02, -0.3, 0.3, 0.2, 1.8}, false, true);
-  for (std::size_t k = 0; k < all.size(); k += 13) sines.push_back(all[k]);
+  for (std::size_t k = 0; k < all.size(); k += 67) sines.push_back(all[k]);
   const ActivityPenalty penalty(sines, 0.5);
   const std::vector<FreeRunRecord> records = measured(90);
   CHECK(state_space_cost(example_state_space(4), all_of(records), {.penalty = &penalty}).cost >
