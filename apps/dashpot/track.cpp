@@ -139,14 +139,18 @@ std::vector<TrackedScheme> track_all(const TrackSettings& settings, const Damper
 }
 
 std::string table_of(const std::vector<TrackedScheme>& tracked, int width) {
-  Table table({"inverse", ">RMSE N", ">% of span", ">% in reach", ">largest % in reach",
-               ">time out of reach %", ">at a limit %"});
+  Table table({"inverse", ">RMSE N", ">% span", ">in reach", ">largest", ">time out", ">at limit"});
   for (const auto& [name, r] : tracked)
     table.row({name, number_text(r.all.rmse), percent_text(r.all.rms_span),
                percent_text(r.reachable.rms_span),
                percent_text(100 * r.reachable.max_error / r.span),
                percent_text(100 - r.reachable_share), percent_text(r.saturated_share)});
-  return table.text(static_cast<std::size_t>(width));
+  return table.text(static_cast<std::size_t>(width)) +
+         paragraph(
+             "In reach, largest: RMSE and largest error where the wanted force is in reach, % "
+             "of the span. Time out: % of the time that it is out of reach; at limit: that "
+             "the command is at a limit.",
+             static_cast<std::size_t>(width));
 }
 
 std::string csv_of(const TrackReport& r, const Motion& motion, DriveUnit unit) {
