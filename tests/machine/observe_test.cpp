@@ -223,13 +223,13 @@ TEST_CASE("a plant's file: a road that nothing measures, and the file that it be
   CHECK(format_json(to_json(again)) == format_json(to_json(setup)));
   CHECK(again.sensors[2].delay == 0.002);
   CHECK(again.level == 1);
-  const auto refused = [](const std::string& input) {
+  const auto refusal = [](const std::string& input) {
     std::string text = kObservedCar;
     const std::string old = "{kind: ground, class: C, speed: 20 m/s}";
     return message_of(
         [&] { parse_in_plant_setup(text.replace(text.find(old), old.size(), input), "car.yaml"); });
   };
-  CHECK(contains(refused("{kind: force, at: body}"), "only a road may be without: kind: ground"));
-  CHECK(contains(refused("{kind: ground, class: X, speed: 20 m/s}"), "unknown class 'X'"));
-  CHECK(contains(refused("{kind: ground, class: C}"), "speed"));
+  CHECK(contains(refusal("{kind: force, at: body}"), "only a road may be without: kind: ground"));
+  CHECK(contains(refusal("{kind: ground, class: X, speed: 20 m/s}"), "unknown class 'X'"));
+  CHECK(contains(refusal("{kind: ground, class: C}"), "speed"));
 }
