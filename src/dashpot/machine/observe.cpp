@@ -152,7 +152,7 @@ std::vector<PlantObserver> observers_of(const std::shared_ptr<const DamperModel>
 int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlantSetup& setup,
                  const ObserverNoise& noise, const ObserverScale& scale,
                  const PlantRecording& recording, const ObservedSamples& samples) {
-  constexpr int kMostFilterSteps = 32;
+  constexpr int kFinestSteps = 32;
   constexpr std::size_t kTried = 1500;
   constexpr double kEnough = 0.003;
   const auto forces = [&](int steps) {
@@ -172,7 +172,7 @@ int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlant
     return force;
   };
   int steps = 1;
-  for (std::vector<double> coarse = forces(1); steps < kMostFilterSteps; steps *= 2) {
+  for (std::vector<double> coarse = forces(1); steps < kFinestSteps; steps *= 2) {
     std::vector<double> fine = forces(2 * steps), change(fine.size());
     for (std::size_t k = 0; k < fine.size(); ++k) change[k] = fine[k] - coarse[k];
     if (rms_of(change) < kEnough * scale.force) break;

@@ -32,9 +32,9 @@ Channel derived_velocity(const Record& record) {
 }
 
 /// A label, and the SI unit behind it.
-using Quantity = std::pair<std::string, std::string>;
+using Axis = std::pair<std::string, std::string>;
 
-FigurePanel panel_of(const std::string& title, const Quantity& x, const Quantity& y, int height) {
+FigurePanel panel_of(const std::string& title, const Axis& x, const Axis& y, int height) {
   return {.title = title,
           .x_label = x.first,
           .y_label = y.first,
