@@ -32,9 +32,10 @@ Channel derived_velocity(const Record& record) {
 }
 
 /// A label, and the SI unit behind it.
-using Axis = std::pair<std::string, std::string>;
+using ChannelAxis = std::pair<std::string, std::string>;
 
-FigurePanel panel_of(const std::string& title, const Axis& x, const Axis& y, int height) {
+FigurePanel panel_of(const std::string& title, const ChannelAxis& x, const ChannelAxis& y,
+                     int height) {
   return {.title = title,
           .x_label = x.first,
           .y_label = y.first,
