@@ -15,18 +15,21 @@ bool is_of_an_interface(std::string_view name) {
 /// The types and sizes that texts say in their first comment must be declared before.
 std::string declared_before() {
   std::string code;
-  for (const char* type : {"damper_input",  "damper_model", "damper_signals", "damper_demand",
-                           "DamperInput",   "DamperDemand", "DemandKind",     "FirstRoot",
-                           "LawPath",       "RootBracket",  "StrutSignals",   "ControlLimits",
-                           "ForceLoop",     "InverseInput", "InverseModel",   "LawModel",
-                           "LawParameters", "Mlp",          "Observer",       "PolynomialError",
-                           "RootError",     "SearchError"})
+  for (const char* type : {"damper_input",    "damper_model", "damper_signals", "damper_demand",
+                           "DamperInput",     "DamperDemand", "DemandKind",     "FirstRoot",
+                           "LawPath",         "RootBracket",  "StrutSignals",   "ControlLimits",
+                           "ForceLoop",       "InverseInput", "InverseModel",   "LawModel",
+                           "LawParameters",   "Mlp",          "Observer",       "PlantFilter",
+                           "PolynomialError", "RootError",    "SearchError"})
     code += "typedef struct " + std::string(type) + " { double x; } " + type + ";\n";
   for (const char* size : {"CELL_MOST_CURRENTS",   "CELL_MOST_FEATURES",
                            "CELL_MOST_INPUTS",     "CELL_MOST_LAG",
-                           "CELL_MOST_WIDTH",      "DAMPER_PLANT_STATES",
-                           "DAMPER_SAMPLE_TIME",   "DAMPER_STATE_SIZE",
-                           "DAMPER_STRUTS",        "GATED_MOST_GATES",
+                           "CELL_MOST_WIDTH",      "DAMPER_INPUTS",
+                           "DAMPER_PLANT_STATES",  "DAMPER_SAMPLE_TIME",
+                           "DAMPER_STATE_SIZE",    "DAMPER_SENSORS",
+                           "DAMPER_STRUTS",        "FILTER_MOST",
+                           "FILTER_MOST_SENSORS",  "FILTER_MOST_INPUTS",
+                           "FILTER_MOST_DAMPER",   "GATED_MOST_GATES",
                            "GATED_MOST_SIGNALS",   "INVERSE_STATES",
                            "INVERSE_TAPS",         "LAW_MOST_STATES",
                            "MLP_MOST_WIDTH",       "NARX_MOST_INPUTS",
