@@ -15,12 +15,12 @@ bool is_of_an_interface(std::string_view name) {
 /// The types and sizes that texts say in their first comment must be declared before.
 std::string declared_before() {
   std::string code;
-  for (const char* type : {"damper_input",    "damper_model", "damper_signals", "damper_demand",
-                           "DamperInput",     "DamperDemand", "DemandKind",     "FirstRoot",
-                           "LawPath",         "RootBracket",  "StrutSignals",   "ControlLimits",
-                           "ForceLoop",       "InverseInput", "InverseModel",   "LawModel",
-                           "LawParameters",   "Mlp",          "Observer",       "PlantFilter",
-                           "PolynomialError", "RootError",    "SearchError"})
+  for (const char* type :
+       {"damper_input", "damper_model",    "damper_signals", "damper_demand", "DamperInput",
+        "DamperDemand", "DemandKind",      "FilterSample",   "FirstRoot",     "LawPath",
+        "RootBracket",  "StrutSignals",    "ControlLimits",  "ForceLoop",     "InverseInput",
+        "InverseModel", "LawModel",        "LawParameters",  "Mlp",           "Observer",
+        "PlantFilter",  "PolynomialError", "RootError",      "SearchError"})
     code += "typedef struct " + std::string(type) + " { double x; } " + type + ";\n";
   for (const char* size : {"CELL_MOST_CURRENTS",   "CELL_MOST_FEATURES",
                            "CELL_MOST_INPUTS",     "CELL_MOST_LAG",
