@@ -185,7 +185,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
                 (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
                 "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +
                 plant.string() + ", as it truly is\nNext        dashpot identify " +
-                shell_quoted(folder) + "/ride_*.csv --in " + shell_quoted(settings.plant) +
+                shell_quoted(folder) + " --in " + shell_quoted(settings.plant) +
                 " --models tanh_kwok\n");
   if (console.json)
     console.print_json(

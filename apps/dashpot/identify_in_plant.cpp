@@ -300,9 +300,8 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
   const InPlantSetup setup = read_in_plant_setup(words);
   require_measured(setup);
   const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);
-  std::vector<PlantRecording> recordings;
-  for (const std::string& path : settings.data.paths)
-    recordings.push_back(read_plant_recording(path, setup.channels()));
+  const std::vector<PlantRecording> recordings =
+      read_plant_recordings(settings.data.paths, setup.channels());
   prepare_results(settings.results);
 
   // Each law in turn, the best first.

@@ -372,9 +372,8 @@ int run_observe(const ObserveSettings& settings, Console& console) {
       setup.drive_unit != file.drive_unit)
     throw Error(settings.model, "takes " + to_string(file.drive_unit) + ", and the plant states " +
                                     to_string(setup.drive_unit));
-  std::vector<PlantRecording> recordings;
-  for (const std::string& path : settings.recordings)
-    recordings.push_back(read_plant_recording(path, setup.channels()));
+  std::vector<PlantRecording> recordings =
+      read_plant_recordings(settings.recordings, setup.channels());
   if (!settings.truth.empty() && recordings.size() > 1 && !fs::is_directory(settings.truth))
     throw UsageError("--truth", "is one file for several recordings",
                      "a folder with a file of each recording's name");
@@ -428,7 +427,7 @@ Command observe_command() {
                    .required = true},
                   {.names = "RECORDING",
                    .target = &s.recordings,
-                   .help = "recordings of the plant, one table each",
+                   .help = "recordings of the plant, one table each, or folders of them",
                    .takes = Takes::File,
                    .required = true},
                   {.names = "--in",
