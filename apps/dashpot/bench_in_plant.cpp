@@ -10,6 +10,7 @@
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/record/record_file.h"
+#include "dashpot/record/source_files.h"
 #include "dashpot/report/provenance.h"
 #include "dashpot/report/words.h"
 
@@ -93,7 +94,8 @@ std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings&
 }  // namespace
 
 std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
-  return {{.names = "--in",
+  return {// What the recordings are of.
+          {.names = "--in",
            .target = &settings.plant,
            .help = "instead of a bench: rides of a plant with the damper in it, as its sensors "
                    "record them, a ride per level, and the truth beside them (docs/in-plant.md)",
@@ -104,6 +106,8 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
            .help = "with --in: true values of what the plant calls unknown, as sprung_mass=350kg",
            .value = "LIST",
            .default_text = "those of the plant's table"},
+
+          // What moves it, for how long, and how well that is seen.
           {.names = "--road",
            .target = &settings.road,
            .help = "with --in: the road (simulate --list roads)",
@@ -152,8 +156,12 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
       with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));
   const ParameterSet damper = load_parameter_set(campaign.damper);
   if (setup.drive_unit != DriveUnit::None && setup.drive_unit != damper.model.drive_unit())
-    throw Error(campaign.damper, "takes " + to_string(damper.model.drive_unit()) +
-                                     ", and the plant states " + to_string(setup.drive_unit));
+    throw Error(campaign.damper,
+                "takes " + to_string(damper.model.drive_unit()) + ", and the plant states " +
+                    to_string(setup.drive_unit),
+                "'voltage' or 'current' of the plant as the damper has it");
+
+  // A ride per level.
   const VirtualCampaignOptions options{
       .duration = settings.duration,
       .sample_rate = campaign.sample_rate > 0 ? campaign.sample_rate : 500,
@@ -174,6 +182,9 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   }
   const fs::path plant = fs::path(folder) / "truth" / "plant.json";
   write_file(plant, format_json(to_json(setup)));
+  mark_without_recordings(plant.parent_path());
+
+  // What was recorded, and the command that goes on from it.
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
   std::string levels;

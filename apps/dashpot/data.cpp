@@ -4,6 +4,8 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/record/source_files.h"
 #include "dashpot/report/provenance.h"
 
 namespace dashpot::cli {
@@ -42,6 +44,14 @@ std::vector<Option> data_options(DataSettings& settings) {
           {.names = "-v,--verbose",
            .target = &settings.verbose,
            .help = "print everything that was understood of the data"}};
+}
+
+std::vector<std::string> recording_files(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const SourcePath& file : list_files({paths.begin(), paths.end()}))
+    files.push_back(file.path.string());
+  if (files.empty()) throw Error(join(paths, ", "), "holds no file", "a folder of recordings");
+  return files;
 }
 
 void print_notes(const Dataset& dataset, Console& console, std::size_t most) {

@@ -17,6 +17,9 @@ struct DataSettings {
 /// The rows that every command with DATA has.
 std::vector<Option> data_options(DataSettings& settings);
 
+/// The files of the paths: a folder stands for those in it. Throws Error where there is none.
+std::vector<std::string> recording_files(const std::vector<std::string>& paths);
+
 /// Reads the recordings and prints, on stderr, what was understood: briefly, or all of it when
 /// verbose.
 Dataset load_recordings(const DataSettings& settings, Console& console);

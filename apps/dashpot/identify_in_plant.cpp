@@ -300,8 +300,10 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
   const InPlantSetup setup = read_in_plant_setup(words);
   require_measured(setup);
   const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);
-  const std::vector<PlantRecording> recordings =
-      read_plant_recordings(settings.data.paths, setup.channels());
+  const std::vector<std::string> files = recording_files(settings.data.paths);
+  std::vector<PlantRecording> recordings;
+  for (const std::string& file : files)
+    recordings.push_back(read_plant_recording(file, setup.channels()));
   prepare_results(settings.results);
 
   // Each law in turn, the best first.
@@ -322,7 +324,7 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
                  plants = folder / "plants";
   for (const InPlantFit& one : fits)
     if (one.report.model) {
-      save_damper(one, setup, settings.data.paths, recordings.front().sample_time, models, console);
+      save_damper(one, setup, files, recordings.front().sample_time, models, console);
       write_file(plants / (one.law + ".json"), format_json(to_json(as_found(setup, one.report))));
     }
   std::string where = "\n";

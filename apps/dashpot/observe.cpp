@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include <fmt/format.h>
@@ -15,8 +16,11 @@
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/record/record_file.h"
+#include "dashpot/report/quantity.h"
+#include "data.h"
 #include "document_text.h"
 #include "observe_options.h"
+#include "units.h"
 
 namespace dashpot::cli {
 namespace {
@@ -24,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ObserveSettings {
-  std::string model, plant, truth, folder = "dashpot-observed";
+  std::string model, plant, truth, units, folder = "dashpot-observed";
   std::vector<std::string> recordings;
   std::vector<std::string> force_errors;
   double level = 90;
@@ -43,7 +47,7 @@ constexpr std::string_view kObserveExample =
     "\n"
     "# A virtual campaign, judged by its truth:\n"
     "dashpot bench --in car.yaml --output rides\n"
-    "dashpot observe model.json --in car.yaml rides/ride_1.csv --truth rides/truth";
+    "dashpot observe model.json --in car.yaml rides --truth rides/truth";
 
 /// Where the truth is known: how far the estimates are from it.
 struct TruthFigure {
@@ -52,10 +56,26 @@ struct TruthFigure {
   double inside = 0;           ///< share of the samples within the band
 };
 
-/// Millimetres for people.
-double factor_of(const std::string& unit) { return unit == "m" || unit == "m/s" ? 1000 : 1; }
-std::string shown_unit(const std::string& unit) {
-  return unit == "m" || unit == "m/s" ? "m" + unit : unit;
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// The truth of each recording, of what is estimated; none where it is not known.
+std::vector<PlantRecording> read_truths(const ObserveSettings& settings,
+                                        const ObserveReport& report) {
+  std::vector<PlantRecording> truths;
+  if (settings.truth.empty()) return truths;
+  for (const ObservedRecording& observed : report.recordings) {
+    std::vector<std::string> names;
+    for (const ObservedQuantity& q : observed.quantities) names.push_back(q.name);
+
+    const fs::path path = settings.truth;
+    truths.push_back(read_plant_recording(fs::is_directory(path) ? path / observed.name : path,
+                                          {"damper_force"}, names));
+  }
+  return truths;
 }
 
 /// The estimates over time as a record: each quantity with half the width of its band.
@@ -83,6 +103,8 @@ std::vector<TruthFigure> truth_figures(const ObservedRecording& observed,
                 "has " + std::to_string(truth.samples) + " samples, and " + observed.name + " " +
                     std::to_string(count),
                 "the truth of the same recording");
+
+  // Of each quantity that the truth has: how far it is off, and how often within its band.
   std::vector<TruthFigure> figures;
   for (const ObservedQuantity& q : observed.quantities) {
     const auto channel = std::ranges::find(truth.channels, q.name, &Channel::name);
@@ -105,17 +127,11 @@ std::vector<TruthFigure> truth_figures(const ObservedRecording& observed,
   return figures;
 }
 
-std::vector<TruthFigure> compared(const ObserveSettings& settings, const ObserveReport& report) {
+std::vector<TruthFigure> compared(const ObserveReport& report,
+                                  const std::vector<PlantRecording>& truths) {
   std::vector<TruthFigure> all;
-  if (settings.truth.empty()) return all;
-  for (const ObservedRecording& observed : report.recordings) {
-    const fs::path path = fs::is_directory(settings.truth)
-                              ? fs::path(settings.truth) / observed.name
-                              : fs::path(settings.truth);
-    std::vector<std::string> names;
-    for (const ObservedQuantity& q : observed.quantities) names.push_back(q.name);
-    const std::vector<TruthFigure> figures =
-        truth_figures(observed, read_plant_recording(path, {"damper_force"}, names));
+  for (std::size_t r = 0; r < truths.size(); ++r) {
+    const std::vector<TruthFigure> figures = truth_figures(report.recordings[r], truths[r]);
     all.insert(all.end(), figures.begin(), figures.end());
   }
   return all;
@@ -131,9 +147,9 @@ DocumentTable truth_table(const std::vector<TruthFigure>& figures, double level)
                                   {"in band %", true}},
                       .rows = {}};
   for (const TruthFigure& f : figures)
-    table.rows.push_back(
-        {f.recording, f.quantity, shown_unit(f.unit), format_number(factor_of(f.unit) * f.error, 3),
-         format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3)});
+    table.rows.push_back({f.recording, f.quantity, unit_name(f.unit), quantity(f.error, f.unit),
+                          format_number(100 * f.error / f.span, 3),
+                          format_number(100 * f.inside, 3)});
   table.note = fmt::format("The bands claim {} %. The first second does not count.",
                            format_number(level, 3));
   return table;
@@ -150,12 +166,9 @@ DocumentTable quantity_table(const ObserveReport& report, double level) {
                       .rows = {}};
   for (const ObservedRecording& one : report.recordings)
     for (const ObservedQuantity& q : one.quantities) {
-      const double factor = factor_of(q.unit);
       const auto [low, high] = std::ranges::minmax(q.value);
-      double half = 0;
-      for (const double width : q.half) half += width / static_cast<double>(q.half.size());
-      table.rows.push_back({one.name, q.name, shown_unit(q.unit), format_number(factor * low, 3),
-                            format_number(factor * high, 3), format_number(factor * half, 3)});
+      table.rows.push_back({one.name, q.name, unit_name(q.unit), quantity(low, q.unit),
+                            quantity(high, q.unit), quantity(mean_of(q.half), q.unit)});
     }
   table.note = fmt::format("Each band is to hold {} % of the time.", format_number(level, 3));
   return table;
@@ -173,9 +186,9 @@ DocumentTable observed_sensors(const ObserveReport& report, double level) {
                       .rows = {}};
   for (const ObservedRecording& one : report.recordings)
     for (const ObservedSensor& s : one.sensors)
-      table.rows.push_back({one.name, s.channel, s.unit, format_number(s.rms, 3),
-                            format_number(s.surprise, 3), format_number(100 * s.inside, 3),
-                            format_number(s.offset, 2)});
+      table.rows.push_back({one.name, s.channel, unit_name(s.unit), quantity(s.rms, s.unit),
+                            quantity(s.surprise, s.unit), format_number(100 * s.inside, 3),
+                            quantity(s.offset, s.unit, 2)});
   table.note = fmt::format(
       "What a sensor showed beyond what the samples before had led to expect; {} % of it is to lie "
       "within its band.",
@@ -188,17 +201,18 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
   std::vector<std::string> lines;
   std::string errors, words;
   for (const ForceError& one : report.noise.force) {
-    const std::string deviation = format_number(one.deviation, 3),
-                      memory = format_number(one.memory, 3);
-    errors += (errors.empty() ? "" : " and ") + deviation + " N, forgotten in " + memory + " s";
-    words += (words.empty() ? "" : ",") + deviation + "@" + memory;
+    const std::string memory = format_number(one.memory, 3);
+    errors += (errors.empty() ? "" : " and ") + quantity(one.deviation, "N") + ' ' +
+              unit_name("N") + ", forgotten in " + memory + " s";
+    words += (words.empty() ? "" : ",") + format_number(one.deviation, 3) + "@" + memory;
   }
   lines.push_back("Errors of the model's force: " + errors + " (--force-error " + words + ").");
-  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    const std::string unit = unit_of(setup.sensors[s].place.quantity);
     lines.push_back(fmt::format("Noise of {}: {} {}{}.", setup.sensors[s].channel,
-                                format_number(report.noise.sensors[s], 3),
-                                unit_of(setup.sensors[s].place.quantity),
+                                quantity(report.noise.sensors[s], unit), unit_name(unit),
                                 setup.sensors[s].noise > 0 ? ", as stated" : ", found"));
+  }
   for (const PlantInputChannel& input : setup.inputs)
     if (input.road)
       lines.push_back(fmt::format("Road, not measured: G_d(n0) {} m^3 at {} m/s{}.",
@@ -209,8 +223,45 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
   return lines;
 }
 
+/// One quantity with its band, over samples of the document; the truth behind, where it is known.
+FigurePanel observed_panel(const ObservedQuantity& q, double level, std::size_t time,
+                           const Channel* truth,
+                           const std::function<std::size_t(const std::vector<double>&)>& keep) {
+  FigurePanel panel{.title = q.name,
+                    .x_label = "Time",
+                    .y_label = q.name,
+                    .series = {},
+                    .reads_along_x = true,
+                    .x_unit = "s",
+                    .y_unit = q.unit};
+  const std::size_t value = keep(q.value), half = keep(q.half);
+
+  // From the back to the front: the band, the truth, the estimate.
+  panel.series.push_back({.label = format_number(level, 3) + " % band",
+                          .colour = "modelled",
+                          .x = {},
+                          .y = {},
+                          .mark = FigureSeries::Mark::Area,
+                          .is_read = false,
+                          .opacity = 0.2,
+                          .shared = SharedCurve{.x = time, .y = value, .half_width = half}});
+  if (truth)
+    panel.series.push_back({.label = "truth",
+                            .colour = "measured",
+                            .x = {},
+                            .y = {},
+                            .shared = SharedCurve{.x = time, .y = keep(truth->samples)}});
+  panel.series.push_back({.label = "estimate",
+                          .colour = "modelled",
+                          .x = {},
+                          .y = {},
+                          .shared = SharedCurve{.x = time, .y = value}});
+  return panel;
+}
+
 /// The force and the motion of the first recording with their bands, and the truth behind.
-DocumentFigure observed_figure(const ObserveReport& report, const ObserveSettings& settings,
+DocumentFigure observed_figure(const ObserveReport& report,
+                               const std::vector<PlantRecording>& truths, double level,
                                Document& document) {
   constexpr std::size_t kMostShown = 3000;
   const ObservedRecording& one = report.recordings.front();
@@ -219,63 +270,36 @@ DocumentFigure observed_figure(const ObserveReport& report, const ObserveSetting
       .title = "Estimates with their bands",
       .caption = fmt::format("{}, its first {} samples at most.", one.name, kMostShown),
       .panels = {}};
+
+  // The samples stand in the document, where curves share them.
   const std::size_t count = std::min(kMostShown, one.quantities.front().value.size());
-  const auto keep = [&](const std::vector<double>& samples, double factor) {
-    std::vector<double> some(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count));
-    for (double& value : some) value *= factor;
-    document.samples.push_back({.values = std::move(some)});
+  const auto keep = [&](const std::vector<double>& samples, const std::string& unit) {
+    document.samples.push_back(
+        {.values = {samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(count)},
+         .unit = unit});
     return document.samples.size() - 1;
   };
   std::vector<double> time;
   for (std::size_t k = 0; k < count; ++k) time.push_back(one.sample_time * static_cast<double>(k));
-  const std::size_t at = keep(time, 1);
-  std::optional<PlantRecording> truth;
-  if (!settings.truth.empty()) {
-    std::vector<std::string> names;
-    for (const ObservedQuantity& q : one.quantities) names.push_back(q.name);
-    truth =
-        read_plant_recording(fs::is_directory(settings.truth) ? fs::path(settings.truth) / one.name
-                                                              : fs::path(settings.truth),
-                             {"damper_force"}, names);
-  }
+  const std::size_t at = keep(time, "s");
+
   for (const ObservedQuantity& q : one.quantities) {
-    const double factor = factor_of(q.unit);
-    FigurePanel panel{.title = q.name,
-                      .x_label = "time, s",
-                      .y_label = q.name + ", " + shown_unit(q.unit),
-                      .series = {},
-                      .reads_along_x = true};
-    const std::size_t value = keep(q.value, factor), half = keep(q.half, factor);
-    panel.series.push_back({.label = format_number(settings.level, 3) + " % band",
-                            .colour = "modelled",
-                            .x = {},
-                            .y = {},
-                            .mark = FigureSeries::Mark::Area,
-                            .is_read = false,
-                            .opacity = 0.2,
-                            .shared = SharedCurve{.x = at, .y = value, .half_width = half}});
-    if (truth)
-      if (const auto channel = std::ranges::find(truth->channels, q.name, &Channel::name);
-          channel != truth->channels.end())
-        panel.series.push_back(
-            {.label = "truth",
-             .colour = "measured",
-             .x = {},
-             .y = {},
-             .shared = SharedCurve{.x = at, .y = keep(channel->samples, factor)}});
-    panel.series.push_back({.label = "estimate",
-                            .colour = "modelled",
-                            .x = {},
-                            .y = {},
-                            .shared = SharedCurve{.x = at, .y = value}});
-    figure.panels.push_back(std::move(panel));
+    const Channel* truth = nullptr;
+    if (!truths.empty())
+      for (const Channel& channel : truths.front().channels)
+        if (channel.name == q.name) truth = &channel;
+    figure.panels.push_back(
+        observed_panel(q, level, at, truth,
+                       [&](const std::vector<double>& samples) { return keep(samples, q.unit); }));
   }
   return figure;
 }
 
 Value json_of(const ObserveReport& report, const std::vector<TruthFigure>& truth,
               const InPlantSetup& setup) {
-  Value recordings = Value::array(), against = Value::array();
+  Value recordings = Value::array(), errors = Value::array(), against = Value::array();
+
+  // What was found of each recording.
   for (const ObservedRecording& one : report.recordings) {
     Value sensors = Value::array(), quantities = Value::array();
     for (const ObservedSensor& s : one.sensors)
@@ -285,17 +309,15 @@ Value json_of(const ObserveReport& report, const std::vector<TruthFigure>& truth
                                        {"unexpected", s.surprise},
                                        {"inside", s.inside},
                                        {"offset", s.offset}}));
-    for (const ObservedQuantity& q : one.quantities) {
-      double half = 0;
-      for (const double width : q.half) half += width / static_cast<double>(q.half.size());
+    for (const ObservedQuantity& q : one.quantities)
       quantities.push_back(
-          Value::object({{"name", q.name}, {"unit", q.unit}, {"half_band_mean", half}}));
-    }
+          Value::object({{"name", q.name}, {"unit", q.unit}, {"half_band_mean", mean_of(q.half)}}));
     recordings.push_back(Value::object({{"name", one.name},
                                         {"quantities", std::move(quantities)},
                                         {"sensors", std::move(sensors)}}));
   }
-  Value errors = Value::array();
+
+  // What was taken as uncertain, and the distance to the truth.
   for (const ForceError& one : report.noise.force)
     errors.push_back(Value::object({{"deviation_N", one.deviation}, {"memory_s", one.memory}}));
   for (const TruthFigure& f : truth)
@@ -316,7 +338,7 @@ Value json_of(const ObserveReport& report, const std::vector<TruthFigure>& truth
                         {"warnings", Value::array(report.warnings)}});
 }
 
-Document observe_document(const ObserveReport& report, const std::vector<TruthFigure>& truth,
+Document observe_document(const ObserveReport& report, const std::vector<PlantRecording>& truths,
                           const InPlantSetup& setup, const ObserveSettings& settings,
                           const std::string& damper, const Console& console) {
   Document document{.title = "A plant observed through its damper's model",
@@ -326,16 +348,16 @@ Document observe_document(const ObserveReport& report, const std::vector<TruthFi
                     .command = console.command_line(),
                     .version = DASHPOT_VERSION,
                     .date = date_now(),
-                    .kind = "observation"};
+                    .kind = "observation",
+                    .units = page_units(settings.units)};
+  const std::vector<TruthFigure> truth = compared(report, truths);
 
   // The force in one sentence: how sure it is, and where known how wrong.
   const ObservedQuantity& force = report.recordings.front().quantities.front();
-  double half = 0;
-  for (const double width : force.half) half += width / static_cast<double>(force.half.size());
-  document.verdict =
-      fmt::format("The force of the damper ({}) is known within +-{} N ({} % of the time), {}.",
-                  damper, format_number(half, 3), format_number(settings.level, 3),
-                  settings.causal ? "from the past alone" : "from the whole recording");
+  document.verdict = fmt::format(
+      "The force of the damper ({}) is estimated with a {} % band of +-{} {}, {}.", damper,
+      format_number(settings.level, 3), quantity(mean_of(force.half), "N"), unit_name("N"),
+      settings.causal ? "from the past alone" : "from the whole recording");
   for (const TruthFigure& f : truth)
     if (f.quantity == "damper_force" && f.recording == report.recordings.front().name)
       document.verdict += fmt::format(
@@ -343,11 +365,15 @@ Document observe_document(const ObserveReport& report, const std::vector<TruthFi
           "the time.",
           format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3));
 
+  if (!report.warnings.empty())
+    document.verdict += " What the sensors show speaks against these bands: see the warnings.";
+
   DocumentSection section{.name = "observed", .title = "Observed", .paragraphs = {}};
+  section.remarks = report.warnings;
   if (!truth.empty()) section.tables.push_back(truth_table(truth, settings.level));
   section.tables.push_back(quantity_table(report, settings.level));
   section.tables.push_back(observed_sensors(report, settings.level));
-  section.figures = {observed_figure(report, settings, document)};
+  section.figures = {observed_figure(report, truths, settings.level, document)};
   section.lists = {{.title = report.noise_was_found
                                  ? "Uncertainties; what was not stated was found as that under "
                                    "which the recordings are most likely"
@@ -370,10 +396,14 @@ int run_observe(const ObserveSettings& settings, Console& console) {
       load_damper_file({.model = settings.model, .parameters = {}}, "observe", console);
   if (setup.drive_unit != DriveUnit::None && file.drive_unit != DriveUnit::None &&
       setup.drive_unit != file.drive_unit)
-    throw Error(settings.model, "takes " + to_string(file.drive_unit) + ", and the plant states " +
-                                    to_string(setup.drive_unit));
-  std::vector<PlantRecording> recordings =
-      read_plant_recordings(settings.recordings, setup.channels());
+    throw Error(settings.model,
+                "takes " + to_string(file.drive_unit) + ", and the plant states " +
+                    to_string(setup.drive_unit),
+                "'voltage' or 'current' of the plant as the damper has it");
+  page_units(settings.units);
+  std::vector<PlantRecording> recordings;
+  for (const std::string& name : recording_files(settings.recordings))
+    recordings.push_back(read_plant_recording(name, setup.channels()));
   if (!settings.truth.empty() && recordings.size() > 1 && !fs::is_directory(settings.truth))
     throw UsageError("--truth", "is one file for several recordings",
                      "a folder with a file of each recording's name");
@@ -388,17 +418,19 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   const std::string damper = file.model->name();
   const ObserveReport report = observe(std::shared_ptr<const DamperModel>(std::move(file.model)),
                                        file.domain, setup, recordings, options);
-  const std::vector<TruthFigure> truth = compared(settings, report);
-  const Document document = observe_document(report, truth, setup, settings, damper, console);
+  const Document document =
+      observe_document(report, read_truths(settings, report), setup, settings, damper, console);
   print_document(document, console);
-  for (const std::string& line : noise_lines(report, setup)) console.print(line + '\n');
+  for (const std::string& line : noise_lines(report, setup))
+    console.print(in_units(line, document.units) + '\n');
   for (const std::string& warning : report.warnings) console.warn(warning);
 
   // Files: the page and the samples.
   const fs::path folder = settings.folder;
   std::string where = "\n" + write_document(document, folder, "report");
   for (const ObservedRecording& one : report.recordings)
-    save_csv(record_of(one), folder / (fs::path(one.name).stem().string() + "_observed.csv"));
+    save_csv(record_of(one), folder / (fs::path(one.name).stem().string() + "_observed.csv"),
+             file_units(settings.units));
   console.print(where + "Samples  " + (folder / "*_observed.csv").string() + '\n');
   if (console.json) console.print_json(document_json(document));
   return kDone;
@@ -420,51 +452,57 @@ Command observe_command() {
           "each with a band. The model may be wrong: the error of its force is one of the "
           "unknowns. How large that is, and the sensors' noise where the plant does not state it, "
           "is found from the recordings.",
-      .options = {{.names = "MODEL",
-                   .target = &s.model,
-                   .help = "a model file that 'dashpot identify' wrote",
-                   .takes = Takes::File,
-                   .required = true},
-                  {.names = "RECORDING",
-                   .target = &s.recordings,
-                   .help = "recordings of the plant, one table each, or folders of them",
-                   .takes = Takes::File,
-                   .required = true},
-                  {.names = "--in",
-                   .target = &s.plant,
-                   .help =
-                       "the plant with all its numbers known, and its sensors, as a YAML file or "
-                       "words (docs/in-plant.md); 'identify --in' writes what it found into "
-                       "plants/",
-                   .value = "PLANT",
-                   .takes = Takes::File},
-                  {.names = "--causal",
-                   .target = &s.causal,
-                   .help = "each instant from its past alone, as an ECU knows it"},
-                  force_error_option(s.force_errors),
-                  {.names = "--band",
-                   .target = &s.level,
-                   .help = "share of the time that the bands are to hold, %",
-                   .value = "PERCENT",
-                   .minimum = 0},
-                  {.names = "--steps",
-                   .target = &s.steps,
-                   .help = "steps of the filter per sample",
-                   .value = "N",
-                   .minimum = 0,
-                   .default_text = "as many as its error asks for"},
-                  {.names = "--truth",
-                   .target = &s.truth,
-                   .help = "where the truth is known, as of 'dashpot bench --in': its file, or a "
-                           "folder with a file of each recording's name; needs damper_force",
-                   .value = "PATH",
-                   .takes = Takes::File},
-                  {.names = "-o,--output",
-                   .target = &s.folder,
-                   .help = "folder for the report and the samples",
-                   .value = "DIR",
-                   .takes = Takes::Folder},
-                  threads_option(s.threads)},
+      .options =
+          {// The damper, the recordings, and the plant.
+           {.names = "MODEL",
+            .target = &s.model,
+            .help = "a model file that 'dashpot identify' wrote",
+            .takes = Takes::File,
+            .required = true},
+           {.names = "RECORDING",
+            .target = &s.recordings,
+            .help = "recordings of the plant, one table each, or folders of them",
+            .takes = Takes::File,
+            .required = true},
+           {.names = "--in",
+            .target = &s.plant,
+            .help = "the plant with all its numbers known, and its sensors, as a YAML file or "
+                    "words (docs/in-plant.md); 'identify --in' writes what it found into "
+                    "plants/",
+            .value = "PLANT",
+            .takes = Takes::File},
+
+           // How it is estimated.
+           {.names = "--causal",
+            .target = &s.causal,
+            .help = "each instant from its past alone, as an ECU knows it"},
+           force_error_option(s.force_errors),
+           {.names = "--band",
+            .target = &s.level,
+            .help = "share of the time that the bands are to hold, %",
+            .value = "PERCENT",
+            .minimum = 0},
+           {.names = "--steps",
+            .target = &s.steps,
+            .help = "steps of the filter per sample",
+            .value = "N",
+            .minimum = 0,
+            .default_text = "as many as its error asks for"},
+
+           // What it is judged by, and where it goes.
+           {.names = "--truth",
+            .target = &s.truth,
+            .help = "where the truth is known, as of 'dashpot bench --in': its file, or a "
+                    "folder with a file of each recording's name; needs damper_force",
+            .value = "PATH",
+            .takes = Takes::File},
+           {.names = "-o,--output",
+            .target = &s.folder,
+            .help = "folder for the report and the samples",
+            .value = "DIR",
+            .takes = Takes::Folder},
+           units_option(s.units),
+           threads_option(s.threads)},
       .example = std::string(kObserveExample),
       .run = [settings](Console& console) { return run_observe(*settings, console); }};
 }

@@ -14,6 +14,7 @@
 #include "child.h"
 #include "dashpot/base/file.h"
 #include "dashpot/error.h"
+#include "dashpot/record/source_files.h"
 
 namespace fs = std::filesystem;
 
@@ -32,12 +33,6 @@ constexpr std::array<std::string_view, 4> kResultFolders{"fits", "rides", "desig
 
 bool is_result_folder(std::string_view name) {
   return std::ranges::find(kResultFolders, name) != kResultFolders.end();
-}
-
-/// Results are no recordings, wherever somebody searches for those.
-void mark_results(const fs::path& folder) {
-  const fs::path mark = folder / ".no-recordings";
-  if (!fs::exists(mark)) write_file(mark, "");
 }
 
 }  // namespace
@@ -66,7 +61,7 @@ std::string error_of(const ChildEnd& end) {
 }
 
 fs::path Project::make_result(std::string_view results, const std::string& name) const {
-  mark_results(folder_ / results);
+  mark_without_recordings(folder_ / results);
   const fs::path folder = inside(std::string(results) + "/" + name);
   make_folder(folder);
   return folder;
@@ -83,7 +78,7 @@ Project::Project(const fs::path& folder) {
   make_folder(folder);
   folder_ = fs::canonical(folder);
   make_folder(folder_ / ".studio");
-  mark_results(folder_ / "fits");
+  mark_without_recordings(folder_ / "fits");
 
   lock_ =
       open((folder_ / ".studio" / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);

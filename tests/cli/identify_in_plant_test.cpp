@@ -33,10 +33,11 @@ std::string pushed_mass() {
 
 TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a model file") {
   const TemporaryFolder folder;
-  const std::string data = folder.write("pushed.csv", pushed_mass()).string(),
-                    results = (folder.path() / "results").string();
+  folder.write("pushed.csv", pushed_mass());
+  const TemporaryFolder elsewhere;
+  const std::string results = elsewhere.path().string();
   const std::string command =
-      "identify " + data +
+      "identify " + folder.path().string() +
       " --in oscillator,mass=unknown,stiffness=5N/mm,force=push,displacement=x "
       "--models tanh_guo,viscous_dahl --output " +
       results;
@@ -55,6 +56,8 @@ TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a m
   CHECK(contains(read_file(results + "/report.html"), "A damper identified in its plant"));
   const ModelFile model = load_model(results + "/models/tanh_guo.json");
   CHECK(contains(model.provenance.command, "--in oscillator"));
+  REQUIRE(model.provenance.files.size() == 1);
+  CHECK(contains(model.provenance.files[0].path, "pushed.csv"));
   CHECK_CLOSE(model.model->force({0, 1, 0}, {}), 34, 0.2, 0);
 }
 

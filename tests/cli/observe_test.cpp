@@ -44,8 +44,9 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
 
   const std::string model = (folder.path() / "spencer.json").string();
   save_model(to_model_file(load_parameter_set("spencer1997")), model);
+  // The folder of the rides stands for them; their truth, deeper in it, is no recording.
   const std::string with = "observe " + model + " --in " + rides + "/truth/plant.json " + rides +
-                           "/ride_1.csv --truth " + rides + "/truth --force-error 5@0.01";
+                           " --truth " + rides + "/truth --force-error 5@0.01";
   const ProgramResult result = stdout_of_dashpot(with + " --output " + seen + " --json");
   REQUIRE(result.exit_code == 0);
   const Value report = parse_json(result.output, "stdout");
@@ -57,7 +58,25 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   CHECK(contains(read_file(seen + "/ride_1_observed.csv"),
                  "time [s],damper_force [N],damper_force_half_band [N]"));
 
+  // The same in other units: the page's alone, and the CSV's.
+  const ProgramResult lbf = run_dashpot(with + " --units lbf,in/s --output " + seen);
+  CHECK(contains(lbf.output, "lbf"));
+  CHECK_FALSE(contains(lbf.output, " mm"));
+  CHECK(contains(read_file(seen + "/ride_1_observed.csv"),
+                 "time [s],damper_force [lbf],damper_force_half_band [lbf]"));
+
   // What cannot be used.
+  CHECK(contains(run_dashpot(with + " --units furlong").output, "--units: "));
+  CHECK(contains(
+      run_dashpot("bench --in " +
+                  folder
+                      .write("amperes.yaml",
+                             std::string(kRoadlessCar)
+                                 .replace(std::string(kRoadlessCar).find("voltage"), 7, "current"))
+                      .string() +
+                  " --output " + again)
+          .output,
+      "takes V, and the plant states A; 'voltage' or 'current' of the plant"));
   CHECK(contains(
       run_dashpot("observe " + model + " --in " + car + ' ' + rides + "/ride_1.csv").output,
       "tyre_stiffness: is unknown"));

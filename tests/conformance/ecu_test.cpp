@@ -96,38 +96,49 @@ std::vector<std::pair<std::string, VehicleWords>> ecu_controllers() {
           {"search", search}};
 }
 
+/// A block along its own samples, told by the first of its commands.
+void add_block(const TemporaryFolder& folder, Board& board, const std::string& prefix,
+               CPrecision precision, const CBlock& block) {
+  for (const ExportedFile& file : c_block_sources(block, prefix, ""))
+    folder.write(file.name, file.content);
+
+  // What goes in and what comes out, step by step.
+  std::string numbers, next;
+  std::vector<double> expected;
+  for (std::size_t k = 0; k < kEcuSteps; ++k) {
+    numbers += "  " + c_numbers(block.samples[k].inputs) + ",\n";
+    expected.push_back(block.samples[k].commands[0]);
+  }
+  std::size_t place = 0;
+  for (const CPort& port : block.inputs)
+    for (std::size_t k = 0; k < port.count; ++k)
+      next += "  input." + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
+  board.functions += "static const double " + prefix + "_rows[][" + std::to_string(place) +
+                     "] = {\n" + numbers + "};\n";
+
+  std::size_t commands = 0;
+  for (const CPort& port : block.commands) commands += port.count;
+  board.add(prefix, expected,
+            filled(R"(  const double* row = @prefix@_rows[k];
+  static @prefix@_input input;
+  @real@ commands[@commands@];
+  if (k == 0) @prefix@_init(model);
+@next@  @prefix@_step(model, &input, commands);
+  return commands[0];
+)",
+                   {{"prefix", CText::own(prefix)},
+                    {"real", CText::own(precision == CPrecision::Single ? "float" : "double")},
+                    {"commands", CText::own(std::to_string(commands))},
+                    {"next", CText::own(next)}}));
+}
+
 void write_controllers(const TemporaryFolder& folder, Board& board) {
   for (const auto& [name, words] : ecu_controllers()) {
     const Vehicle vehicle = make_vehicle(words);
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       const std::string prefix = name + (precision == CPrecision::Single ? "_float" : "_double");
-      const CBlock block = c_controller_block(vehicle, {.name = prefix, .precision = precision});
-      for (const ExportedFile& file : c_block_sources(block, prefix, ""))
-        folder.write(file.name, file.content);
-      std::string numbers, next;
-      std::vector<double> expected;
-      for (std::size_t k = 0; k < kEcuSteps; ++k) {
-        numbers += "  " + c_numbers(block.samples[k].inputs) + ",\n";
-        expected.push_back(block.samples[k].commands[0]);
-      }
-      std::size_t place = 0;
-      for (const CPort& port : block.inputs)
-        for (std::size_t k = 0; k < port.count; ++k)
-          next += "  input." + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
-      board.functions += "static const double " + prefix + "_rows[][" + std::to_string(place) +
-                         "] = {\n" + numbers + "};\n";
-      board.add(prefix, expected,
-                filled(R"(  const double* row = @prefix@_rows[k];
-  static @prefix@_input input;
-  @real@ commands[@struts@];
-  if (k == 0) @prefix@_init(model);
-@next@  @prefix@_step(model, &input, commands);
-  return commands[0];
-)",
-                       {{"prefix", CText::own(prefix)},
-                        {"real", CText::own(precision == CPrecision::Single ? "float" : "double")},
-                        {"struts", CText::own(std::to_string(vehicle.dampers.size()))},
-                        {"next", CText::own(next)}}));
+      add_block(folder, board, prefix, precision,
+                c_controller_block(vehicle, {.name = prefix, .precision = precision}));
     }
   }
 }
@@ -178,34 +189,9 @@ void write_observers(const TemporaryFolder& folder) {
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       const std::string prefix =
           std::string(damper) + (precision == CPrecision::Single ? "_float" : "_double");
-      const CBlock block = c_observer_block(example.observer, example.names,
-                                            {.name = prefix, .precision = precision});
-      for (const ExportedFile& file : c_block_sources(block, prefix, ""))
-        folder.write(file.name, file.content);
-      std::string numbers, next;
-      std::vector<double> expected;
-      for (std::size_t k = 0; k < kEcuSteps; ++k) {
-        numbers += "  " + c_numbers(block.samples[k].inputs) + ",\n";
-        expected.push_back(block.samples[k].commands[0]);
-      }
-      std::size_t place = 0;
-      for (const CPort& port : block.inputs)
-        for (std::size_t k = 0; k < port.count; ++k)
-          next += "  input." + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
-      board.functions += "static const double " + prefix + "_rows[][" + std::to_string(place) +
-                         "] = {\n" + numbers + "};\n";
-      board.add(prefix, expected,
-                filled(R"(  const double* row = @prefix@_rows[k];
-  static @prefix@_input input;
-  @real@ outputs[@outputs@];
-  if (k == 0) @prefix@_init(model);
-@next@  @prefix@_step(model, &input, outputs);
-  return outputs[0];
-)",
-                       {{"prefix", CText::own(prefix)},
-                        {"real", CText::own(precision == CPrecision::Single ? "float" : "double")},
-                        {"outputs", CText::own(std::to_string(block.commands.size()))},
-                        {"next", CText::own(next)}}));
+      add_block(folder, board, prefix, precision,
+                c_observer_block(example.observer, example.names,
+                                 {.name = prefix, .precision = precision}));
     }
   }
   folder.write("models.h", board.includes + "\n#define STEPS " + std::to_string(kEcuSteps) +

@@ -123,17 +123,6 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
   CHECK_CLOSE(recording.channel("level").samples[2], 0.004, 1e-12, 0);
   CHECK(recording.channel("level").unit == "m");
   CHECK(contains(recording.channel("push").origin, "taken as SI"));
-
-  // A folder stands for its files, by name; what lies deeper is not read.
-  folder.write("another.csv", "time,level,push\n0,1,5\n1,2,6\n");
-  std::filesystem::create_directory(folder.path() / "truth");
-  const auto all = read_plant_recordings({folder.path().string()}, {"level"});
-  REQUIRE(all.size() == 2);
-  CHECK(all[0].name == "another.csv");
-  CHECK(all[1].name == "ride.csv");
-  CHECK(contains(
-      message_of([&] { read_plant_recordings({(folder.path() / "truth").string()}, {"level"}); }),
-      "holds no file"));
   CHECK(contains(message_of([&] { recording.channel("levle"); }), "did you mean 'level'"));
 
   const auto wrong = [&](const std::string& text) { return message_of([&] { read(text); }); };

@@ -147,14 +147,15 @@ std::vector<PlantObserver> observers_of(const std::shared_ptr<const DamperModel>
   return observers;
 }
 
-/// So many steps per sample that half of them change the force by less than a hundredth of its
-/// span.
+/// So many steps per sample that twice as many change the force by less than 0.3 % of its scale.
 int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlantSetup& setup,
                  const ObserverNoise& noise, const ObserverScale& scale,
                  const PlantRecording& recording, const ObservedSamples& samples) {
   constexpr int kFinestSteps = 32;
   constexpr std::size_t kTried = 1500;
   constexpr double kEnough = 0.003;
+
+  // The force along the first samples, by so many steps.
   const auto forces = [&](int steps) {
     ObservedSamples some = samples;
     some.count = std::min(samples.count, kTried);
@@ -171,6 +172,8 @@ int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlant
                           .force);
     return force;
   };
+
+  // Twice as many, until that changes little.
   int steps = 1;
   for (std::vector<double> coarse = forces(1); steps < kFinestSteps; steps *= 2) {
     std::vector<double> fine = forces(2 * steps), change(fine.size());
@@ -393,6 +396,8 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
   setup.from_rest = true;
   damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
   ObserverScale scale = observer_scale(*damper, domain);
+
+  // All that is uncertain must be stated: nothing is searched for where it runs.
   ObserverNoise noise;
   if (options.force.empty())
     throw Error("--force-error", "is not stated", "what 'dashpot observe' prints of this plant");

@@ -125,25 +125,4 @@ PlantRecording read_plant_recording(const std::filesystem::path& path,
   return recording;
 }
 
-std::vector<PlantRecording> read_plant_recordings(const std::vector<std::string>& paths,
-                                                  const std::vector<std::string>& wanted) {
-  namespace fs = std::filesystem;
-  std::vector<PlantRecording> recordings;
-  for (const std::string& name : paths) {
-    const fs::path path = name;
-    std::vector<fs::path> files;
-    if (!fs::is_directory(path)) files.push_back(path);
-
-    // Of a folder all files: its subfolders hold truths and results.
-    if (fs::is_directory(path))
-      for (const fs::directory_entry& entry : fs::directory_iterator(path))
-        if (entry.is_regular_file()) files.push_back(entry.path());
-    if (files.empty()) throw Error(path.string(), "holds no file", "a folder of recordings");
-    std::ranges::sort(files);
-
-    for (const fs::path& file : files) recordings.push_back(read_plant_recording(file, wanted));
-  }
-  return recordings;
-}
-
 }  // namespace dashpot

@@ -29,8 +29,4 @@ PlantRecording read_plant_recording(const std::filesystem::path& path,
                                     const std::vector<std::string>& wanted,
                                     const std::vector<std::string>& also = {});
 
-/// Reads each of them; a folder stands for the files in it, in the order of their names.
-std::vector<PlantRecording> read_plant_recordings(const std::vector<std::string>& paths,
-                                                  const std::vector<std::string>& wanted);
-
 }  // namespace dashpot

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"
@@ -99,6 +100,11 @@ std::vector<SourcePath> list_files(const std::vector<fs::path>& paths) {
   }
   refuse_doubles(out);
   return out;
+}
+
+void mark_without_recordings(const fs::path& folder) {
+  const fs::path mark = folder / kNoRecordings;
+  if (!fs::exists(mark)) write_file(mark, "");
 }
 
 bool matches(const std::string& pattern, const SourcePath& file) {

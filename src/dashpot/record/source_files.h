@@ -21,6 +21,9 @@ struct SourcePath {
 /// a path that cannot be read and on a file that is given twice.
 std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& paths);
 
+/// Marks a folder, that of results or of truths, so that list_files() does not search it.
+void mark_without_recordings(const std::filesystem::path& folder);
+
 /// Whether a pattern with * ? [...] fits the relative path or the file's name.
 bool matches(const std::string& pattern, const SourcePath& file);
 

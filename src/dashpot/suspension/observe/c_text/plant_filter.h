@@ -183,6 +183,8 @@ static inline void filter_by_state(const PlantFilter* f, const DamperInput* firs
                                    double* by) {
   const int width = 4 + f->damper;
   int i, k, side;
+
+  /* One after the other a little more and a little less. */
   for (k = 0; (k < width) && (f->damper > 0); ++k) {
     const double by_much = (k < 4) ? reach[k % 2] : reach[k - 2];
     double after[2 * FILTER_MOST_DAMPER];
@@ -221,6 +223,8 @@ static inline void filter_move_column(const PlantFilter* f, const double* by_fir
   const int acting = f->inputs + f->roads + 1, width = 4 + f->damper;
   double start = 0, after = 0, errors = 0, kept = 0, motion[4] = {0, 0, 0, 0};
   int i, k, pass;
+
+  /* The damper's motion and the force at the start. */
   for (k = 0; k < half; ++k) {
     motion[0] += f->deflection[k] * column[k * size];
     motion[1] += f->deflection[k] * column[(half + k) * size];
@@ -233,6 +237,8 @@ static inline void filter_move_column(const PlantFilter* f, const double* by_fir
   for (k = 0; k < f->damper; ++k) {
     start += by_first[2 + k] * column[(own + k) * size];
   }
+
+  /* The plant at the end, by the force at the start; that at the end; and once more by it. */
   after = start;
   for (pass = 0; pass < 2; ++pass) {
     for (i = 0; i < f->plant; ++i) {
@@ -265,6 +271,8 @@ static inline void filter_move_column(const PlantFilter* f, const double* by_fir
       after += by_last[2 + i] * z[i];
     }
   }
+
+  /* All of it behind the step. */
   for (k = 0; k < f->plant; ++k) {
     column[k * size] = end[k];
   }
