@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "dashpot/base/random.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/latin_hypercube.h"
 
 namespace dashpot {
 namespace {
@@ -56,19 +56,12 @@ bool is_possible(const DamperDescription& damper) {
   }
 }
 
-/// Latin hypercube in -1 ... 1: each tolerance is divided evenly among the dampers.
+/// What becomes of the tolerances of so many dampers, in -1 ... 1.
 std::vector<std::vector<double>> draw_made(std::size_t dampers, std::size_t tolerances,
                                            std::uint64_t seed) {
-  Random random(seed);
-  std::vector<std::vector<double>> made(dampers, std::vector<double>(tolerances));
-  std::vector<std::size_t> order(dampers);
-  for (std::size_t t = 0; t < tolerances; ++t) {
-    for (std::size_t k = 0; k < dampers; ++k) order[k] = k;
-    for (std::size_t k = dampers; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
-    for (std::size_t k = 0; k < dampers; ++k)
-      made[k][t] =
-          2 * (static_cast<double>(order[k]) + random.uniform()) / static_cast<double>(dampers) - 1;
-  }
+  std::vector<std::vector<double>> made = latin_hypercube(dampers, tolerances, seed);
+  for (std::vector<double>& damper : made)
+    for (double& tolerance : damper) tolerance = 2 * tolerance - 1;
   return made;
 }
 

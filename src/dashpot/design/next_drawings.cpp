@@ -10,6 +10,7 @@
 #include "dashpot/damper/kinds/family/physics_information.h"
 #include "dashpot/design/design_problem.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/latin_hypercube.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
@@ -54,22 +55,6 @@ class DrawingSpace {
   DesignProblem problem_;
   std::set<std::string> known_;
 };
-
-/// Each variable's range divided evenly among the places.
-void add_hypercube(DrawingSpace& space, std::size_t count, double part, std::uint64_t seed,
-                   std::vector<DamperDescription>& drawings) {
-  Random random(seed);
-  std::vector<std::vector<double>> places(count, std::vector<double>(space.size()));
-  std::vector<std::size_t> order(count);
-  for (std::size_t v = 0; v < space.size(); ++v) {
-    for (std::size_t k = 0; k < count; ++k) order[k] = k;
-    for (std::size_t k = count; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
-    for (std::size_t k = 0; k < count; ++k)
-      places[k][v] =
-          (static_cast<double>(order[k]) + random.uniform()) / static_cast<double>(count);
-  }
-  for (const std::vector<double>& place : places) space.add(place, part, drawings);
-}
 
 /// Every combination of the variables at so many places each, from end to end of the inner ranges.
 void add_grid(DrawingSpace& space, const std::vector<std::size_t>& levels,
@@ -282,7 +267,8 @@ std::vector<DamperDescription> random_drawings(const DesignRequest& request, std
                                                std::uint64_t seed) {
   DrawingSpace space(request);
   std::vector<DamperDescription> drawings;
-  add_hypercube(space, count, 1, seed, drawings);
+  for (const std::vector<double>& place : latin_hypercube(count, space.size(), seed))
+    space.add(place, 1, drawings);
   return drawings;
 }
 
@@ -331,7 +317,9 @@ NextReport next_drawings(const DesignRequest& request, const FamilyModel& family
     of_grid *= levels[v];
   }
   if (of_grid <= kMostOfGrid) add_grid(space, levels, drawings);
-  add_hypercube(space, std::max(kCandidates, 4 * options.count), kInner, options.seed, drawings);
+  for (const std::vector<double>& place :
+       latin_hypercube(std::max(kCandidates, 4 * options.count), space.size(), options.seed))
+    space.add(place, kInner, drawings);
   const std::vector<DamperDescription> region = random_drawings(request, kRegion, options.seed + 1);
   const std::vector<DamperDescription> grid = grid_drawings(request, options.count);
   if (drawings.size() < options.count || region.empty())
