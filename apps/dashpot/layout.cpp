@@ -6,7 +6,8 @@ namespace dashpot::cli {
 namespace {
 
 constexpr std::size_t kGap = 2;
-constexpr std::size_t kNarrowest = 18;  // the last column gets at least this
+constexpr std::size_t kNarrowest = 18;  // with less left, the last column goes below its row
+constexpr std::size_t kBelow = 4;       // and is indented by this
 
 std::string without_trailing_space(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
@@ -38,7 +39,9 @@ std::string Table::text(std::size_t width, std::size_t indent) const {
     for (std::size_t c = 0; c <= last; ++c) widths[c] = std::max(widths[c], columns_of(cells[c]));
   std::size_t before = indent;
   for (std::size_t c = 0; c < last; ++c) before += widths[c] + kGap;
-  widths[last] = std::min(widths[last], width > before + kNarrowest ? width - before : kNarrowest);
+  const bool is_beside = last == 0 || width >= before + std::min(widths[last], kNarrowest);
+  const std::size_t start = is_beside ? before : indent + kBelow;
+  widths[last] = std::min(widths[last], width > start + kNarrowest ? width - start : kNarrowest);
 
   // A cell of the last column that needs several lines goes on below its first.
   std::string result;
@@ -46,10 +49,15 @@ std::string Table::text(std::size_t width, std::size_t indent) const {
     std::string line(indent, ' ');
     for (std::size_t c = 0; c < last; ++c)
       line += padded(cells[c], widths[c], right_[c]) + std::string(kGap, ' ');
+    if (!is_beside) {
+      result += without_trailing_space(line) + '\n';
+      if (cells[last].empty() || &cells == &rows_.front()) continue;
+      line.assign(start, ' ');
+    }
     for (const std::string& part : wrap(cells[last], widths[last])) {
       line += padded(part, widths[last], right_[last]);
       result += without_trailing_space(line) + '\n';
-      line.assign(before, ' ');
+      line.assign(start, ' ');
     }
   }
   return result;

@@ -265,6 +265,17 @@ std::string states_text(const std::vector<std::string>& states) {
   return "states: " + join(parts, "; ");
 }
 
+/// A relation, indented; what does not fit into a line goes on below, further in.
+std::string equation_text(const std::string& relation, std::size_t columns) {
+  constexpr std::size_t kIndent = 4;
+  std::string text, indent(kIndent, ' ');
+  for (const std::string& part : wrap(relation, columns - 2 * kIndent)) {
+    text += indent + part + '\n';
+    indent.assign(2 * kIndent, ' ');
+  }
+  return text;
+}
+
 std::string facts(const ModelSheet& sheet) {
   std::string text = "inputs: " + join(sheet.inputs, ", ") + "; ";
   text += sheet.states.empty() ? "no state" : states_text(sheet.states);
@@ -292,8 +303,9 @@ ModelSheet model_sheet(const std::string& name) {
 
 std::string sheet_text(const ModelSheet& sheet, int width) {
   const auto columns = static_cast<std::size_t>(width);
-  std::string text = fmt::format("{} ({}): {}\n\n", sheet.name, sheet.kind, sheet.title);
-  for (const std::string& line : split(sheet.equation, '\n')) text += "    " + line + '\n';
+  std::string text =
+      paragraph(fmt::format("{} ({}): {}", sheet.name, sheet.kind, sheet.title), columns) + '\n';
+  for (const std::string& line : split(sheet.equation, '\n')) text += equation_text(line, columns);
   text += '\n' + paragraph(facts(sheet), columns);
   if (!sheet.parameters.empty()) {
     Table table({"parameter", "unit", ">default", ">bounds", "over current", "meaning"});

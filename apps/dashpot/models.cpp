@@ -24,11 +24,15 @@ constexpr std::string_view kModelsExample =
     "# Is a law of your own read as it is meant?\n"
     "dashpot models my_law.yaml";
 
+/// The models of each kind below its name.
 std::string overview_table(int width) {
-  Table table({"name", "kind", ">to fit", ">states", "title"});
+  Table table({"name", ">to fit", ">states", "title"});
+  std::string kind;
   for (const std::string& name : model_names()) {
     const ModelSheet sheet = model_sheet(name);
-    table.row({sheet.name, sheet.kind, std::to_string(sheet.numbers),
+    if (sheet.kind != kind) table.row({sheet.kind});
+    kind = sheet.kind;
+    table.row({"  " + sheet.name, std::to_string(sheet.numbers),
                std::to_string(sheet.states.size()), sheet.title});
   }
   return table.text(static_cast<std::size_t>(width));

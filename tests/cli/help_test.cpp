@@ -29,15 +29,6 @@ std::vector<std::string> all_commands() {
   return commands;
 }
 
-std::size_t longest_line(const std::string& text) {
-  std::istringstream lines(text);
-  std::size_t longest = 0;
-  for (std::string line; std::getline(lines, line);)
-    longest = std::max(longest, static_cast<std::size_t>(std::ranges::count_if(
-                                    line, [](char c) { return (c & 0xC0) != 0x80; })));
-  return longest;
-}
-
 }  // namespace
 
 TEST_CASE("dashpot alone welcomes and names every command") {

@@ -11,6 +11,14 @@ TEST_CASE("models: the table names every registered model") {
   for (const std::string& name : model_names()) CHECK(contains(result.output, name));
 }
 
+TEST_CASE("models fits 80 columns, the list and every model") {
+  CHECK(longest_line(run_dashpot("models", "COLUMNS=80").output) <= 80);
+  for (const std::string& name : model_names()) {
+    CAPTURE(name);
+    CHECK(longest_line(run_dashpot("models " + name, "COLUMNS=80").output) <= 80);
+  }
+}
+
 TEST_CASE("models NAME: equation, every parameter with its unit, source") {
   for (const Law* law : laws()) {
     CAPTURE(law->name);

@@ -1,9 +1,11 @@
 #pragma once
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "dashpot/report/wrap.h"
 #include "support.h"
 
 // What the tests of the command line share.
@@ -17,6 +19,15 @@ inline ProgramResult run_dashpot(const std::string& arguments,
 /// The same, but only what it prints on stdout.
 inline ProgramResult stdout_of_dashpot(const std::string& arguments) {
   return run_program("( " + program_path() + " " + arguments + " 2>/dev/null )");
+}
+
+/// The columns that the widest line of a text takes.
+inline std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);)
+    longest = std::max(longest, dashpot::columns_of(line));
+  return longest;
 }
 
 /// The lines of the ```sh blocks of a page.
