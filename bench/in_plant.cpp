@@ -3,6 +3,7 @@
 //   bench_in_plant grey train.csv     Noel and Schoukens' benchmark, its structure known
 //   bench_in_plant black train.csv    the same, no law named
 //   bench_in_plant car LAW...         a virtual quarter car whose damper is of another structure
+//   bench_in_plant unmeasured TRUTH CLASS SECONDS LAW...   the same on a road that nothing measures
 
 #include "dashpot/machine/in_plant.h"
 
@@ -22,6 +23,7 @@
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/simulate.h"
 #include "dashpot/vehicle.h"
+#include "without_road.h"
 
 using namespace dashpot;
 
@@ -248,9 +250,8 @@ int main(int count, char** arguments) {
     run_car({words.begin() + 1, words.end()});
   } else if (words.size() == 2 && (words[0] == "grey" || words[0] == "black")) {
     run_benchmark(words[0] == "grey", words[1]);
-  } else {
-    fmt::print(stderr,
-               "usage: bench_in_plant grey|black train.csv, or bench_in_plant car LAW...\n");
+  } else if (!run_without_road(words)) {
+    fmt::print(stderr, "usage: the head of bench/in_plant.cpp names what there is\n");
     return 2;
   }
   return 0;

@@ -45,7 +45,6 @@ void require_meaning(const RankingSettings& settings) {
   refuse(!fit.network.empty(), "--network", "laws alone are identified inside a plant");
   refuse(!fit.priors.empty(), "--prior", "state --bounds, or a range of the plant's parameters");
   refuse(fit.options.search > 0, "--search", "--starts says how many starts are tried");
-  refuse(fit.options.asymmetric, "--asymmetric", "both sides of the damper are alike there");
   refuse(!settings.data.load.dataset_file.empty(), "--dataset",
          "the plant says which channel is which");
   refuse(settings.results.figures, "--figures", "the page has its figures");
@@ -83,7 +82,8 @@ DocumentTable parameter_table(const std::string& title,
 }
 
 DocumentTable sensor_table(const InPlantReport& report) {
-  DocumentTable table{.title = "Sensors, in free run of the whole plant",
+  DocumentTable table{.title = report.road_measured ? "Sensors, in free run of the whole plant"
+                                                    : "Sensors, one sample ahead",
                       .columns = {{"recording"},
                                   {"sensor"},
                                   {"unit"},
@@ -100,8 +100,12 @@ DocumentTable sensor_table(const InPlantReport& report) {
                           format_number(100 * s.held_back / s.rms, 3), format_number(s.offset, 3)});
 
   table.note =
-      "Errors are rms, after the sensor's offset in the part that was fitted; the time held back "
-      "was seen by no fit, and the plant runs free from the first sample on.";
+      report.road_measured
+          ? "Errors are rms, after the sensor's offset in the part that was fitted; the time held "
+            "back was seen by no fit, and the plant runs free from the first sample on."
+          : "Errors are rms, of what a filter of plant and damper expects one sample ahead: "
+            "nothing "
+            "can run free on a road that is not known. The time held back was seen by no fit.";
   return table;
 }
 
@@ -118,6 +122,13 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
     lines.push_back("No sensor shows an effect of " + join(known.without_effect, ", ") + '.');
   for (const auto& group : known.confounded)
     lines.push_back("These can be traded against each other: " + join(group, ", ") + '.');
+  if (!report.road_measured) {
+    lines.push_back(
+        "Nothing measures the road: all unknowns are those under which the sensors are most "
+        "likely, "
+        "along the damper's motion that they tell.");
+    return lines;
+  }
   lines.push_back(fmt::format(
       "Integrated by the classical Runge-Kutta method, {} steps per sample; half the step changes "
       "the worst sensor by {} % of its error.",
@@ -134,7 +145,11 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
   const InPlantTrace& trace = report.traces.front();
   const std::size_t count = trace.force.size();
   const std::size_t first = count > kMostShown ? count - kMostShown : 0;
-  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+  if (!report.road_measured) {
+    figure.title = "Damper";
+    figure.caption = "The damper as it was observed, at the end of what was fitted of a recording.";
+  }
+  for (std::size_t s = 0; s < trace.modelled.size(); ++s) {
     FigurePanel panel{.title = setup.sensors[s].channel,
                       .x_label = "time, s",
                       .y_label = setup.sensors[s].channel + ", " + report.sensors[s].unit,
@@ -153,7 +168,8 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
   }
 
   // The virtual load cell: what no sensor measures.
-  FigurePanel panel{.title = "force of the damper, modelled",
+  FigurePanel panel{.title = report.road_measured ? "force of the damper, modelled"
+                                                  : "force of the damper, observed",
                     .x_label = "deflection, m",
                     .y_label = "force, N",
                     .series = {}};
@@ -232,8 +248,10 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
       best.report.model
           ? fmt::format(
                 "{} in the {}: {} % of the worst sensor's rms is left on the time held "
-                "back, in free run.",
-                best.law, setup.model->name, format_number(best.worst(), 3))
+                "back, {}.",
+                best.law, setup.model->name, format_number(best.worst(), 3),
+                best.report.road_measured ? "in free run"
+                                          : "one sample ahead; nothing measures the road")
           : "No law could be fitted: " + best.report.message;
 
   // The laws beside each other, where there are several.
@@ -258,7 +276,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
     section.tables.push_back(parameter_table("Damper", best.report.damper));
     if (!best.report.nuisances.empty())
       section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
-    section.tables.back().audience = Audience::Files;
+    if (best.report.road_measured) section.tables.back().audience = Audience::Files;
     section.figures = {sensor_figure(best.report, setup)};
     section.remarks = knowable_lines(best.report);
     document.sections.push_back(std::move(section));
@@ -298,7 +316,9 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
   // All that can be wrong is found before the work.
   require_meaning(settings);
   const InPlantSetup setup = read_in_plant_setup(words);
-  require_measured(setup);
+  if (settings.fit.options.asymmetric && !has_unmeasured_road(setup))
+    throw UsageError("--asymmetric", "has no meaning where the road is measured",
+                     "both sides of the damper are alike there");
   const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);
   const std::vector<std::string> files = recording_files(settings.data.paths);
   std::vector<PlantRecording> recordings;
@@ -307,8 +327,11 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
   prepare_results(settings.results);
 
   // Each law in turn, the best first.
-  InPlantOptions options{
-      .choices = fit.choices, .seed = fit.seed, .threads = fit.threads, .monitor = fit.monitor};
+  InPlantOptions options{.choices = fit.choices,
+                         .asymmetric = fit.asymmetric,
+                         .seed = fit.seed,
+                         .threads = fit.threads,
+                         .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
   std::vector<InPlantFit> fits;
   for (const std::string& name : settings.fit.models)

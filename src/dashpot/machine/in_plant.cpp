@@ -9,15 +9,15 @@
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
-#include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/machine/without_road.h"
 
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kMostSteps = 16;           // of the integrator per sample, unasked
-constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
+constexpr std::size_t kMostSteps = 16;  // of the integrator per sample, unasked
 
 LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations,
                                    double tolerance) {
@@ -112,141 +112,6 @@ std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantC
   return steps;
 }
 
-/// Names of plant and law unknowns among these, each once. States at the beginning are nuisances
-/// that nobody asked for: they are named beside others only.
-std::vector<std::string> names_of(const PlantResiduals& residuals,
-                                  const std::vector<std::size_t>& unknowns) {
-  std::vector<std::string> names;
-  bool is_asked_for = false;
-  for (const std::size_t u : unknowns) {
-    const std::string name = residuals.name(u);
-    is_asked_for |= u < residuals.plant_unknowns() || residuals.is_of_law(u);
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  }
-  return is_asked_for ? names : std::vector<std::string>{};
-}
-
-/// The same of each group that has one.
-std::vector<std::vector<std::string>> named_groups(const PlantResiduals& residuals,
-                                                   const Covariance& spread) {
-  std::vector<std::vector<std::string>> groups;
-  for (const auto& group : spread.confounded)
-    if (std::vector<std::string> names = names_of(residuals, group); !names.empty())
-      groups.push_back(std::move(names));
-  return groups;
-}
-
-Knowable knowable_at(const PlantResiduals& residuals, const std::vector<double>& x,
-                     const InPlantOptions& options) {
-  // The sensitivities at that point, as normal matrices per recording and sensor.
-  const LeastSquaresReport at =
-      solve(residuals.problem(0, options.threads), x, solver_options(options, 0, 1e-8));
-  Knowable known;
-  const std::size_t n = x.size();
-  if (at.normal_matrix.size() != n * n) return known;
-  const std::vector<double> ones(at.part_matrices.size(), 1.0);
-  const Covariance spread = covariance(at.part_matrices, ones, n);
-  known.without_effect = names_of(residuals, spread.without_effect);
-  known.confounded = named_groups(residuals, spread);
-
-  // Singular values of the sensitivities, each column scaled to length 1.
-  std::vector<std::size_t> active;
-  for (std::size_t k = 0; k < n; ++k)
-    if (at.normal_matrix[k * n + k] > 0) active.push_back(k);
-  const std::size_t m = active.size();
-  std::vector<double> scaled(m * m), one(m * m);
-  for (std::size_t i = 0; i < m; ++i) {
-    known.unknowns.push_back(residuals.name(active[i]));
-    one[i * m + i] = 1;
-    for (std::size_t k = 0; k < m; ++k)
-      scaled[i * m + k] = at.normal_matrix[active[i] * n + active[k]] /
-                          std::sqrt(at.normal_matrix[active[i] * n + active[i]] *
-                                    at.normal_matrix[active[k] * n + active[k]]);
-  }
-  if (m == 0) return known;
-  for (const double square : eigenvalues(scaled, one, m))
-    known.singular_values.push_back(std::sqrt(std::max(square, 0.0)));
-  std::ranges::reverse(known.singular_values);
-  return known;
-}
-
-/// Which unknowns are without effect or can be traded, by index.
-std::vector<bool> weak_ones(const Covariance& spread, std::size_t n) {
-  std::vector<bool> weak(n);
-  for (const std::size_t k : spread.without_effect) weak[k] = true;
-  for (const auto& group : spread.confounded)
-    for (const std::size_t k : group) weak[k] = true;
-  return weak;
-}
-
-void add_parameters(const PlantResiduals& residuals, const LeastSquaresReport& solved,
-                    const Covariance& spread, InPlantReport& report) {
-  const std::vector<bool> weak = weak_ones(spread, solved.x.size());
-  const auto interval = [&](FittedParameter& p, double deviation) {
-    p.low = p.value - kNormal95 * deviation;
-    p.high = p.value + kNormal95 * deviation;
-  };
-
-  // The plant's numbers, then the nuisances: both are single unknowns in a size of their own.
-  for (std::size_t k = 0; k < solved.x.size(); ++k) {
-    if (residuals.is_of_law(k)) continue;
-    FittedParameter p = residuals.described(k, solved.x);
-    const double size[] = {residuals.size_of(k)};
-    interval(p, std::sqrt(spread.variance(k, size)));
-    p.weak = weak[k];
-    (k < residuals.plant_unknowns() ? report.plant : report.nuisances).push_back(std::move(p));
-  }
-
-  // The law's coefficients are weighted sums of its unknowns.
-  const std::size_t first = residuals.plant_unknowns();
-  for (const auto& c : residuals.law_coefficients(solved.x)) {
-    FittedParameter p{.name = c.name, .unit = c.unit, .meaning = c.meaning, .value = c.value};
-    p.fixed = c.weights.empty();
-    p.at_bound = c.at_bound;
-    interval(p, p.fixed ? 0 : std::sqrt(spread.variance(first + c.first, c.weights)));
-    for (std::size_t k = 0; k < c.weights.size(); ++k) p.weak = p.weak || weak[first + c.first + k];
-    report.damper.push_back(std::move(p));
-  }
-}
-
-void add_warnings(const Covariance& spread, const PlantResiduals& residuals,
-                  InPlantReport& report) {
-  for (const auto* list : {&report.plant, &report.damper})
-    for (const FittedParameter& p : *list)
-      if (p.at_bound)
-        report.warnings.push_back(p.name + " = " + format_number(p.value) + " " + p.unit +
-                                  " stands at a bound of its range");
-  if (const auto names = names_of(residuals, spread.without_effect); !names.empty())
-    report.warnings.push_back(join(names, ", ") + ": no sensor shows an effect");
-  for (const auto& names : named_groups(residuals, spread))
-    report.warnings.push_back(join(names, " and ") +
-                              " cannot be told apart by these sensors; --fix one of them");
-}
-
-/// A current that never changes tells nothing of what the law does at others: asking for that is an
-/// error, and a law that could tell it is kept to this one.
-void require_drive(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
-                   const InPlantOptions& options, std::vector<std::string>& warnings) {
-  double low = INFINITY, high = -INFINITY;
-  for (const PlantCase& one : cases.all) {
-    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
-    low = std::min(low, least);
-    high = std::max(high, greatest);
-  }
-  if (high > low) return;
-  const std::string level = format_number(low) + " " + to_string(setup.drive_unit);
-  for (const ParameterChoice& choice : options.choices)
-    if (choice.form && *choice.form != Form::Constant)
-      throw Error("form of " + choice.parameter,
-                  "cannot be told: the drive is " + level + " all along",
-                  "record at several levels, or leave the form out");
-  const bool follows =
-      std::ranges::any_of(law.params, [](const ParamInfo& p) { return p.form != Form::Constant; });
-  if (follows && setup.drive_unit != DriveUnit::None)
-    warnings.push_back("the drive is " + level +
-                       " all along: the damper is identified there and nowhere else");
-}
-
 /// Solves with each sensor's scale, takes the rms that is left as the new one, and solves again
 /// until the scales stay. A single sensor needs no second round.
 LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> x,
@@ -271,13 +136,19 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 const InPlantOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
-  require_measured(setup);
+  if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
   InPlantReport report;
 
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit
   // with a spring and a dashpot in the damper's place.
   PlantCases cases = make_cases(setup, recordings, options.steps);
-  require_drive(law, setup, cases, options, report.warnings);
+  double low = INFINITY, high = -INFINITY;
+  for (const PlantCase& one : cases.all) {
+    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
+    low = std::min(low, least);
+    high = std::max(high, greatest);
+  }
+  require_drive(law, setup, low, high, options, report.warnings);
   const PlantStart start = plant_start(setup, recordings, cases, options);
   report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
 
@@ -294,7 +165,9 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
 
   // What can be told is said before the fit.
-  report.knowable = knowable_at(residuals, x, options);
+  const LeastSquaresReport at =
+      solve(residuals.problem(0, options.threads), x, solver_options(options, 0, 1e-8));
+  report.knowable = knowable_of(residuals, at.part_matrices, x.size());
 
   // The fit; where the integrator's step is too long for its error, once more with half of it.
   constexpr double kStepShare = 0.05;
@@ -323,8 +196,8 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
 
   // Intervals: correlated residuals count as one, and sensors differ.
   const Covariance spread = residuals.covariance_at(solved);
-  add_parameters(residuals, solved, spread, report);
-  add_warnings(spread, residuals, report);
+  add_parameters(residuals, solved.x, spread, report);
+  add_warnings(residuals, spread, report);
 
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));

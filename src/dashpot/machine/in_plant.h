@@ -1,10 +1,8 @@
 #pragma once
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "dashpot/damper_model.h"
-#include "dashpot/identify.h"
+#include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/plant_recording.h"
 
@@ -23,34 +21,8 @@ struct Law;
 // at the beginning of each recording and, where asked for, the delay of a sensor. The offset of
 // each sensor in each recording is eliminated. scale: the stated noise of a sensor, else the rms of
 // what the fit leaves there.
-
-/// What can be told from these sensors and this excitation, before the fit: the sensitivity of all
-/// sensors to each unknown about the start.
-struct Knowable {
-  std::vector<std::string> unknowns;
-  /// Of the sensitivities, each unknown's scaled to length 1: descending. Close to 0: some cannot
-  /// be told apart.
-  std::vector<double> singular_values;
-  std::vector<std::string> without_effect;           ///< unknowns that no sensor shows
-  std::vector<std::vector<std::string>> confounded;  ///< that can be traded against each other
-};
-
-struct InPlantReport {
-  FitReport::Status status = FitReport::Status::Failed;
-  std::string message;
-  std::shared_ptr<const DamperModel> model;  ///< without an offset: in equilibrium at rest
-  std::vector<FittedParameter> plant, damper, nuisances;
-  Knowable knowable;
-  std::vector<SensorFigures> sensors;
-  std::vector<InPlantTrace> traces;
-  std::vector<std::string> warnings;
-  Domain domain;  ///< of the damper's motion, as modelled
-  int iterations = 0;
-  double seconds = 0;     ///< CPU time
-  std::size_t steps = 1;  ///< of the integrator per sample
-  /// What half the step changes, rms, as a share of the rms error; the worst sensor.
-  double step_error = 0;
-};
+//
+// Where nothing measures the road, nothing can be run free; without_road.h says what is done then.
 
 /// Identifies the law as the damper of this plant. Throws Error, before long work, where these
 /// recordings cannot serve: an input that is constant, a current that never changes though a form

@@ -85,12 +85,9 @@ void require_setup(const InPlantSetup& setup) {
     throw Error(where + ", skip", "is " + format_number(setup.skip), "0 s or more");
 }
 
-void require_measured(const InPlantSetup& setup) {
-  for (const PlantInputChannel& input : setup.inputs)
-    if (input.road)
-      throw Error("plant, inputs", "nothing measures the road, from which a damper is identified",
-                  "a channel with its height; 'dashpot observe' does without one once the damper "
-                  "is known");
+bool has_unmeasured_road(const InPlantSetup& setup) {
+  return std::ranges::any_of(setup.inputs,
+                             [](const PlantInputChannel& one) { return one.road.has_value(); });
 }
 
 }  // namespace dashpot

@@ -72,11 +72,12 @@ struct InPlantSetup {
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
-/// Throws Error where an input has no channel: an identification needs all of them.
-void require_measured(const InPlantSetup& setup);
+/// Whether an input is a road that nothing measures.
+bool has_unmeasured_road(const InPlantSetup& setup);
 
 struct InPlantOptions {
   std::vector<ParameterChoice> choices;  ///< of the law, as on the bench
+  bool asymmetric = false;  ///< without a road: rebound and compression apart where that pays
   int starts = 12;
   int iterations = 100;
   std::uint64_t seed = 1;

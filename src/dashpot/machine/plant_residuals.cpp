@@ -192,13 +192,7 @@ std::string PlantResiduals::name(std::size_t k) const {
   if (k < plant_unknowns()) return setup_->unknown[k].name;
   if (k >= first_delay_) return "delay of " + setup_->sensors[delays_[k - first_delay_]].channel;
   if (k >= first_state_) return "state at the beginning";
-  const std::size_t own = k - plant_unknowns();
-  for (const auto& c : law_coefficients(std::vector<double>(size_.size(), 1.0)))
-    if (!c.weights.empty() && own >= c.first && own < c.first + c.weights.size()) {
-      const std::size_t end = c.weights.size() > 1 ? c.name.rfind('_') : std::string::npos;
-      return c.name.substr(0, end);
-    }
-  return "law";
+  return name_in_law(*this, plant_unknowns(), k, size_.size());
 }
 
 FittedParameter PlantResiduals::described(std::size_t k, std::span<const double> x) const {

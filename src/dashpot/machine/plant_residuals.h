@@ -6,6 +6,7 @@
 #include "dashpot/identify.h"
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/identify/fit/uncertainty.h"
+#include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/plant_recording.h"
 #include "dashpot/numerics/least_squares.h"
@@ -35,7 +36,7 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
 /// delays. All that it is made from must outlive it.
-class PlantResiduals {
+class PlantResiduals : public InPlantUnknowns {
  public:
   /// plant: where the plant's unknowns start, SI; scale: of the damper's motion.
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns& law,
@@ -56,13 +57,13 @@ class PlantResiduals {
   double reweigh(std::span<const double> x);
   Covariance covariance_at(const LeastSquaresReport& solved) const;
 
-  std::size_t plant_unknowns() const { return setup_->unknown.size(); }
+  std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
   std::size_t first_delay() const { return first_delay_; }
-  bool is_of_law(std::size_t k) const;
-  std::string name(std::size_t k) const;
-  double size_of(std::size_t k) const { return size_[k]; }  ///< of plant unknowns and nuisances
-  FittedParameter described(std::size_t k, std::span<const double> x) const;
-  std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const;
+  bool is_of_law(std::size_t k) const override;
+  std::string name(std::size_t k) const override;
+  double size_at(std::size_t k, std::span<const double>) const override { return size_[k]; }
+  FittedParameter described(std::size_t k, std::span<const double> x) const override;
+  std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const override;
   LawModel damper(std::span<const double> x) const;
 
   /// What half the step changes at the sensors, rms over rms error; the worst sensor.

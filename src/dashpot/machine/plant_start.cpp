@@ -71,37 +71,15 @@ std::vector<double> oscillator_regression(const PlantCase& one, std::size_t inpu
   return solution;
 }
 
-/// Where the plant's unknowns start, before any simulation: as stated, from the data, or the
-/// table's values.
-std::vector<double> first_numbers(const InPlantSetup& setup, const PlantCases& cases,
-                                  std::vector<std::string>& warnings) {
-  // An oscillator under a force tells its numbers by a regression.
+/// An oscillator under a force tells its numbers by a regression; empty where it is none.
+std::vector<double> regression_of(const InPlantSetup& setup, const PlantCases& cases) {
   std::vector<double> regression;
   if (setup.model->name == "oscillator" && setup.inputs.size() == 1 &&
       setup.inputs[0].place.kind == PlantInput::Force)
     for (std::size_t s = 0; s < setup.sensors.size() && regression.empty(); ++s)
       if (setup.sensors[s].place.quantity == PlantQuantity::Displacement)
         regression = oscillator_regression(cases.all.front(), 0, s);
-
-  std::vector<double> plant;
-  const auto& rows = setup.model->parameters;
-  for (const PlantUnknown& unknown : setup.unknown) {
-    const std::size_t row = row_named(rows, unknown.name, setup.model->name, "plant");
-    double value = rows[row].value;
-    if (unknown.about) {
-      value = *unknown.about;
-    } else if (!regression.empty()) {
-      value = regression[row];  // mass, damping, stiffness, in the order of the table
-    } else if (unknown.lower > 0 && unknown.upper < rows[row].upper) {
-      value = std::sqrt(unknown.lower * unknown.upper);
-    } else {
-      warnings.push_back(unknown.name + ": the search starts at the example value " +
-                         format_number(value) + " " + std::string(rows[row].unit) +
-                         "; 'about' says where it is expected");
-    }
-    plant.push_back(std::clamp(value, unknown.lower, unknown.upper));
-  }
-  return plant;
+  return regression;
 }
 
 /// The spring and dashpot that stands in for the damper at first.
@@ -137,12 +115,41 @@ void choose_steps(const InPlantSetup& setup, const std::vector<PlantRecording>& 
 
 }  // namespace
 
+std::vector<double> first_numbers(const InPlantSetup& setup, const std::vector<double>& regression,
+                                  std::vector<std::string>& warnings) {
+  std::vector<double> plant;
+  const auto& rows = setup.model->parameters;
+  for (const PlantUnknown& unknown : setup.unknown) {
+    const std::size_t row = row_named(rows, unknown.name, setup.model->name, "plant");
+    double value = rows[row].value;
+    if (unknown.about) {
+      value = *unknown.about;
+    } else if (!regression.empty()) {
+      value = regression[row];  // mass, damping, stiffness, in the order of the table
+    } else if (unknown.lower > 0 && unknown.upper < rows[row].upper) {
+      value = std::sqrt(unknown.lower * unknown.upper);
+    } else {
+      warnings.push_back(unknown.name + ": the search starts at the example value " +
+                         format_number(value) + " " + std::string(rows[row].unit) +
+                         "; 'about' says where it is expected");
+    }
+    plant.push_back(std::clamp(value, unknown.lower, unknown.upper));
+  }
+  return plant;
+}
+
+double usual_dashpot(const DrivenPlant& plant) {
+  constexpr double kDampingRatio = 0.2;
+  const double mass = plant.mass_along();
+  return 2 * kDampingRatio * std::sqrt(std::max(plant.stiffness_along(), 1e-3 * mass) * mass);
+}
+
 PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                        PlantCases& cases, const InPlantOptions& options) {
-  constexpr double kDampingRatio = 0.2, kTolerance = 1e-4;
+  constexpr double kTolerance = 1e-4;
   constexpr int kIterations = 50;
   PlantStart start;
-  start.plant = first_numbers(setup, cases, start.warnings);
+  start.plant = first_numbers(setup, regression_of(setup, cases), start.warnings);
 
   // The range of the drive.
   DataScale& scale = start.scale;
@@ -163,9 +170,9 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
   const DrivenPlant plant(make_plant(*setup.model, values), setup.strut, inputs);
-  const double stiffness = plant.stiffness_along(), mass = plant.mass_along();
+  const double stiffness = plant.stiffness_along();
   scale.stroke = scale.speed = scale.force = 1;
-  const double dashpot = 2 * kDampingRatio * std::sqrt(std::max(stiffness, 1e-3 * mass) * mass);
+  const double dashpot = usual_dashpot(plant);
   const auto measure = [&](const std::vector<InPlantTrace>& traces) {
     scale.stroke = scale.speed = scale.force = 0;
     for (const InPlantTrace& trace : traces) {

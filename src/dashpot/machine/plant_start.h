@@ -15,6 +15,15 @@ struct PlantStart {
   std::vector<std::string> warnings;
 };
 
+/// Where the plant's unknowns start, before any simulation: as stated, in the middle of a range, or
+/// the table's values, of which `warnings` then tells. regression: of a row of the plant's table
+/// each; empty: there is none.
+std::vector<double> first_numbers(const InPlantSetup& setup, const std::vector<double>& regression,
+                                  std::vector<std::string>& warnings);
+
+/// A dashpot of a fifth of the critical damping along the damper's way, N*s/m.
+double usual_dashpot(const DrivenPlant& plant);
+
 /// Fits the plant with a spring and a dashpot in the damper's place. Chooses cases.steps, unless
 /// the options state it, so that half the step changes no sensor by more than a thousandth.
 PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,

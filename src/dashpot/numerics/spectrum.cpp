@@ -55,6 +55,15 @@ PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt) {
   return mean;
 }
 
+std::vector<std::complex<double>> half_spectrum(std::span<const double> x) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<double> samples(x.begin(), x.end());
+  std::vector<std::complex<double>> lines;
+  fft.fwd(lines, samples);
+  return lines;
+}
+
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,
                                      std::size_t points) {
   std::vector<std::complex<double>> half(points / 2 + 1);

@@ -20,6 +20,10 @@ PowerSpectrum power_spectrum(std::span<const double> x, double dt);
 /// memory does not grow with the signal.
 PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt);
 
+/// sum over j of x_j exp(-2 pi i j k / n), n the samples, k = 0 ... n / 2. Quick where n has small
+/// factors alone.
+std::vector<std::complex<double>> half_spectrum(std::span<const double> x);
+
 /// Adds harmonics up: y_j = sum over k of Re(lines_k exp(2 pi i j k / points)), j = 0 ... points -
 /// 1. points: a power of two, at least twice the lines.
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,

@@ -1,0 +1,366 @@
+#include "without_road.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/damper/law_side.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/error.h"
+#include "dashpot/identify/fit/law_unknowns.h"
+#include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr double kBody = 387, kTyre = 295200;  // kg, N/m: the truth
+const std::vector<double> kLevels = {0, 1, 2};
+
+/// The car as its user knows it, on a road of this class (or "unknown"), with these sensors.
+InPlantSetup car(const std::string& road_class, const std::vector<std::string>& sensors) {
+  std::string text =
+      "plant: quarter_car\n"
+      "parameters:\n"
+      "  unsprung_mass: 139.5 kg\n"
+      "  spring_stiffness: 37300 N/m\n"
+      "  sprung_mass: {about: 300 kg, from: 100 kg, to: 1000 kg}\n"
+      "  tyre_stiffness: {about: 200 kN/m, from: 100 kN/m, to: 1000 kN/m}\n"
+      "inputs:\n"
+      "  - {kind: ground, class: " +
+      road_class +
+      ", speed: 20 m/s}\n"
+      "voltage: coil\n"
+      "sensors:\n";
+  for (const std::string& sensor : sensors) {
+    if (sensor == "body")
+      text += "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n";
+    if (sensor == "wheel")
+      text += "  - {channel: wheel, quantity: acceleration, at: wheel, noise: 0.05}\n";
+    if (sensor == "level")
+      text += "  - {channel: level, quantity: deflection, noise: 0.2 mm, delay: 2 ms}\n";
+  }
+  return parse_in_plant_setup(text, "car");
+}
+
+/// The same with its true numbers.
+InPlantSetup true_car(InPlantSetup setup) {
+  setup.unknown.clear();
+  setup.known.insert(setup.known.end(), {{"sprung_mass", kBody}, {"tyre_stiffness", kTyre}});
+  return setup;
+}
+
+/// A parameter set by its name, or "asymmetric": kwok2006 that resists extension far more than
+/// compression, as dampers of cars do, driven by volts.
+std::unique_ptr<LawModel> true_damper(const std::string& name) {
+  if (name != "asymmetric") return std::make_unique<LawModel>(load_parameters(name));
+  const LawModel alike = load_parameters("kwok2006");
+  Dependence parameters = alike.parameters();
+  for (const double rebound : {350.0, 900.0, 0.05}) {  // N, N*s/m, m/s
+    parameters.forms.push_back(Form::Constant);
+    parameters.coefficients.push_back({rebound});
+  }
+  return std::make_unique<LawModel>(with_side(alike.law()), std::move(parameters), DriveUnit::Volt,
+                                    0);
+}
+
+PlantRecording as_recording(const VirtualRide& ride) {
+  return {.name = ride.recorded.name,
+          .sample_time = ride.recorded.sample_time,
+          .samples = ride.recorded.size(),
+          .channels = ride.recorded.channels};
+}
+
+std::vector<PlantRecording> rides(const InPlantSetup& truth, const DamperModel& damper,
+                                  const std::string& road_class, double seconds,
+                                  std::uint64_t seed) {
+  const VirtualCampaignOptions options{.duration = seconds,
+                                       .levels = kLevels,
+                                       .road = "iso8608,class=" + road_class + ",speed=20m/s",
+                                       .seed = seed};
+  std::vector<PlantRecording> recordings;
+  for (const VirtualRide& ride : virtual_campaign(truth, damper, options))
+    recordings.push_back(as_recording(ride));
+  return recordings;
+}
+
+double found(const InPlantReport& report, const std::string& name) {
+  for (const FittedParameter& p : report.plant)
+    if (p.name == name) return p.value;
+  return NAN;
+}
+
+/// rms error of the damper's force over its span at each level, %, where both plants run free under
+/// the same input.
+std::vector<double> force_errors(const InPlantSetup& truth, const DamperModel& damper,
+                                 const InPlantSetup& found, const DamperModel& model,
+                                 const VirtualCampaignOptions& options) {
+  const auto truly = virtual_campaign(truth, damper, options);
+  const auto modelled = virtual_campaign(found, model, options);
+  std::vector<double> errors;
+  for (std::size_t r = 0; r < truly.size(); ++r) {
+    const auto& f = truly[r].truth.channel("damper_force").samples;
+    const auto& g = modelled[r].truth.channel("damper_force").samples;
+    double square = 0;
+    for (std::size_t k = 0; k < f.size(); ++k)
+      square += std::pow(f[k] - g[k], 2) / static_cast<double>(f.size());
+    const auto [low, high] = std::ranges::minmax(f);
+    errors.push_back(100 * std::sqrt(square) / (high - low));
+  }
+  return errors;
+}
+
+/// The damper's force in free run, plant and all, on roads of another seed: rms error over span at
+/// each level, %.
+std::vector<double> force_errors(const InPlantReport& report, const DamperModel& damper,
+                                 const InPlantSetup& setup, const std::string& road_class) {
+  return force_errors(true_car(setup), damper, as_found(setup, report), *report.model,
+                      {.duration = 10,
+                       .levels = kLevels,
+                       .road = "iso8608,class=" + road_class + ",speed=20m/s",
+                       .seed = 9000});
+}
+std::string joined(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += fmt::format("{}{:.2f}", text.empty() ? "" : ", ", value);
+  return text;
+}
+
+/// The same in words; that it diverges, where it does.
+std::string shown_errors(const InPlantReport& report, const DamperModel& damper,
+                         const InPlantSetup& setup, const std::string& road_class) {
+  try {
+    return joined(force_errors(report, damper, setup, road_class));
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void print_fit(const InPlantReport& report) {
+  fmt::print("{}; {} iterations, {:.1f} s of CPU, {} steps per sample\n", report.message,
+             report.iterations, report.seconds, report.steps);
+  for (const auto* list : {&report.plant, &report.damper, &report.nuisances})
+    for (const FittedParameter& p : *list)
+      if (!p.fixed)
+        fmt::print("  {:<32} {:>12} {:<8} {} ... {}{}{}\n", p.name, format_number(p.value, 6),
+                   p.unit, format_number(p.low, 6), format_number(p.high, 6),
+                   p.at_bound ? "  (bound)" : "", p.weak ? "  (weak)" : "");
+  if (!report.knowable.singular_values.empty())
+    fmt::print("singular values {:.3g} ... {:.3g}\n", report.knowable.singular_values.front(),
+               report.knowable.singular_values.back());
+  for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
+}
+
+InPlantOptions told_options() {
+  InPlantOptions options;
+  options.asymmetric = true;
+  options.monitor.on_progress = [](const Progress& progress) {
+    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * progress.fraction, progress.stage);
+  };
+  return options;
+}
+
+/// unmeasured TRUTH CLASS SECONDS LAW...: fits in full.
+void run_unmeasured(const std::string& truth, const std::string& road_class, double seconds,
+                    const std::vector<std::string>& laws) {
+  const std::unique_ptr<LawModel> damper = true_damper(truth);
+  const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
+  const auto recordings = rides(true_car(setup), *damper, road_class, seconds / 3, 1);
+  for (const std::string& law : laws) {
+    const InPlantReport report =
+        identify_in_plant(find_law(law), setup, recordings, told_options());
+    fmt::print("\n{} in a car with {}, class {}, {} s\n", law, truth, road_class, seconds);
+    print_fit(report);
+    if (!report.model) continue;
+    for (const std::string& other : std::vector<std::string>{"B", "C", "D"})
+      fmt::print("force on another road, class {}, at 0, 1, 2 V: {} % of its span, rms\n", other,
+                 shown_errors(report, *damper, setup, other));
+    std::fflush(stdout);
+  }
+}
+
+/// How often intervals hold the truth.
+class Coverage {
+ public:
+  void add(const FittedParameter& p, double truth) {
+    if (p.fixed) return;
+    auto one = std::ranges::find(counts_, p.name, &Count::name);
+    if (one == counts_.end()) one = counts_.insert(one, {p.name, 0, 0, 0, 0});
+    one->inside += truth >= p.low && truth <= p.high;
+    one->of += 1;
+    one->error += (p.value - truth) / truth;
+    one->half += (p.high - p.low) / 2 / std::abs(truth);
+  }
+  void print() const {
+    for (const Count& one : counts_)
+      fmt::print(
+          "{:<24} {:>3} of {} (95 % intervals); mean error {:+.2f} %, half interval {:.2f} %\n",
+          one.name, one.inside, one.of, 100 * one.error / one.of, 100 * one.half / one.of);
+  }
+  void print_share() const {
+    int inside = 0, of = 0;
+    for (const Count& one : counts_) {
+      inside += one.inside;
+      of += one.of;
+    }
+    if (of > 0) fmt::print("all: {} of {}, {:.1f} %\n", inside, of, 100.0 * inside / of);
+  }
+
+ private:
+  struct Count {
+    std::string name;
+    int inside, of;
+    double error, half;
+  };
+  std::vector<Count> counts_;
+};
+
+/// The law's numbers as a fit names them, of the true damper, where it is of the same law.
+std::vector<LawUnknowns::Coefficient> true_coefficients(const LawModel& damper,
+                                                        const InPlantReport& report) {
+  if (report.model->law_inside()->law().name != damper.law().name) return {};
+  if (report.model->law_inside()->law().params.size() != damper.law().params.size()) return {};
+  DataScale scale;
+  scale.drive = {kLevels.front(), kLevels.back(), false, kLevels.size()};
+  const LawUnknowns unknowns(damper.law(), scale, DriveUnit::Volt, OffsetMode::Record);
+  return unknowns.coefficients(unknowns.of(damper));
+}
+
+/// cover REPETITIONS TRUTH CLASS SECONDS LAW
+void run_cover(int repetitions, const std::string& truth, const std::string& road_class,
+               double seconds, const std::string& law) {
+  const std::unique_ptr<LawModel> damper = true_damper(truth);
+  const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
+  Coverage plant, own;
+  double worst = 0, cpu = 0;
+  for (int k = 0; k < repetitions; ++k) {
+    InPlantOptions options;
+    options.asymmetric = truth == "asymmetric";
+    const InPlantReport report = identify_in_plant(
+        find_law(law), setup,
+        rides(true_car(setup), *damper, road_class, seconds / 3, 5000 + 7 * k), options);
+    cpu += report.seconds / repetitions;
+    for (const FittedParameter& p : report.plant)
+      plant.add(p, p.name == "sprung_mass" ? kBody : kTyre);
+    worst = std::max(worst, std::abs(found(report, "sprung_mass") / kBody - 1));
+    if (!report.model) continue;
+    for (const auto& c : true_coefficients(*damper, report))
+      for (const FittedParameter& p : report.damper)
+        if (p.name == c.name) own.add(p, c.value);
+    fmt::print(stderr, "{}: {}, body {:.2f}, tyre {:.0f}\n", k, report.message,
+               found(report, "sprung_mass"), found(report, "tyre_stiffness"));
+  }
+  fmt::print(
+      "{} in a car with {}, class {}, {} s, {} repetitions; {:.1f} s of CPU each, body mass "
+      "at worst {:.2f} % off\n",
+      law, truth, road_class, seconds, repetitions, cpu, 100 * worst);
+  plant.print();
+  plant.print_share();
+  own.print();
+  own.print_share();
+}
+
+/// sensors TRUTH CLASS SECONDS LAW: which of them suffice.
+void run_sensors(const std::string& truth, const std::string& road_class, double seconds,
+                 const std::string& law) {
+  const std::unique_ptr<LawModel> damper = true_damper(truth);
+  fmt::print("| sensors | body mass, kg | tyre, N/m | force on another road, % | remark |\n");
+  const std::vector<std::vector<std::string>> sets = {{"body", "wheel", "level"},
+                                                      {"body", "wheel"},
+                                                      {"body", "level"},
+                                                      {"wheel", "level"},
+                                                      {"body"}};
+  for (const std::vector<std::string>& sensors : sets) {
+    const InPlantSetup setup = car(road_class, sensors);
+    std::string row = "| " + join(sensors, ", ") + " | ";
+    try {
+      const InPlantReport report = identify_in_plant(
+          find_law(law), setup, rides(true_car(setup), *damper, road_class, seconds / 3, 1), {});
+      for (const FittedParameter& p : report.plant)
+        row +=
+            fmt::format("{} ({} ... {}){} | ", format_number(p.value, 4), format_number(p.low, 4),
+                        format_number(p.high, 4), p.weak ? " weak" : "");
+      row += (report.model ? shown_errors(report, *damper, setup, road_class) : "") + " | ";
+      row += report.message + " |";
+    } catch (const Error& error) {
+      row += "refused: " + std::string(error.what()) + " |";
+    }
+    fmt::print("{}\n", row);
+    std::fflush(stdout);
+  }
+}
+
+/// building SECONDS LAW...: three storeys, half scale, the base's motion measured, from the floors'
+/// accelerations alone.
+void run_building(double seconds, const std::vector<std::string>& laws) {
+  InPlantSetup setup = parse_in_plant_setup(
+      "plant: building\n"
+      "parameters:\n"
+      "  storeys: 3\n"
+      "  mass: 1000 kg\n"
+      "  stiffness: {about: 1.5 MN/m, from: 0.5 MN/m, to: 5 MN/m}\n"
+      "  damping: {about: 500 N*s/m, from: 0, to: 10000 N*s/m}\n"
+      "inputs: [{channel: base, kind: ground_acceleration, noise: 0.02}]\n"
+      "sensors:\n"
+      "  - {channel: first, quantity: acceleration, at: floor_1, noise: 0.05}\n"
+      "  - {channel: second, quantity: acceleration, at: floor_2, noise: 0.05}\n"
+      "  - {channel: third, quantity: acceleration, at: floor_3, noise: 0.05, delay: 2 ms}\n"
+      "voltage: coil\n",
+      "building");
+  InPlantSetup truth = setup;
+  truth.unknown.clear();
+  truth.known.insert(truth.known.end(), {{"stiffness", 2e6}, {"damping", 800}});
+  const std::unique_ptr<LawModel> damper = true_damper("spencer1997");
+  VirtualCampaignOptions options{
+      .duration = seconds / 3, .levels = kLevels, .road = "", .push = 2, .seed = 1};
+  std::vector<PlantRecording> recordings;
+  for (const VirtualRide& ride : virtual_campaign(truth, *damper, options))
+    recordings.push_back(as_recording(ride));
+  options.seed = 9000;
+  options.duration = 10;
+  for (const std::string& law : laws) {
+    const InPlantReport report =
+        identify_in_plant(find_law(law), setup, recordings, told_options());
+    fmt::print("\n{} in a building with spencer1997, {} s\n", law, seconds);
+    print_fit(report);
+    for (const SensorFigures& s : report.sensors)
+      fmt::print("{} {}: rms {:.4g}, error {:.4g} where it was fitted, {:.4g} held back {}\n",
+                 s.recording, s.channel, s.rms, s.training, s.held_back, s.unit);
+    if (report.model)
+      fmt::print(
+          "force under another base motion at 0, 1, 2 V: {} % of its span, rms\n",
+          joined(force_errors(truth, *damper, as_found(setup, report), *report.model, options)));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+bool run_without_road(const std::vector<std::string>& words) {
+  if (words.size() >= 5 && words[0] == "unmeasured") {
+    run_unmeasured(words[1], words[2], std::stod(words[3]), {words.begin() + 4, words.end()});
+    return true;
+  }
+  if (words.size() == 6 && words[0] == "cover") {
+    run_cover(std::stoi(words[1]), words[2], words[3], std::stod(words[4]), words[5]);
+    return true;
+  }
+  if (words.size() >= 3 && words[0] == "building") {
+    run_building(std::stod(words[1]), {words.begin() + 2, words.end()});
+    return true;
+  }
+  if (words.size() == 5 && words[0] == "sensors") {
+    run_sensors(words[1], words[2], std::stod(words[3]), words[4]);
+    return true;
+  }
+  return false;
+}

@@ -1,0 +1,155 @@
+#include "dashpot/machine/in_plant_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/law.h"
+#include "dashpot/error.h"
+#include "dashpot/numerics/linear_algebra.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
+
+/// Names of plant and law unknowns among these, each once. States at the beginning are nuisances
+/// that nobody asked for: they are named beside others only.
+std::vector<std::string> names_of(const InPlantUnknowns& unknowns,
+                                  const std::vector<std::size_t>& which) {
+  std::vector<std::string> names;
+  bool is_asked_for = false;
+  for (const std::size_t u : which) {
+    const std::string name = unknowns.name(u);
+    is_asked_for |= u < unknowns.plant_unknowns() || unknowns.is_of_law(u);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return is_asked_for ? names : std::vector<std::string>{};
+}
+
+/// The same of each group that has one.
+std::vector<std::vector<std::string>> named_groups(const InPlantUnknowns& unknowns,
+                                                   const Covariance& spread) {
+  std::vector<std::vector<std::string>> groups;
+  for (const auto& group : spread.confounded)
+    if (std::vector<std::string> names = names_of(unknowns, group); !names.empty())
+      groups.push_back(std::move(names));
+  return groups;
+}
+
+/// Which unknowns are without effect or can be traded, by index.
+std::vector<bool> weak_ones(const Covariance& spread, std::size_t n) {
+  std::vector<bool> weak(n);
+  for (const std::size_t k : spread.without_effect) weak[k] = true;
+  for (const auto& group : spread.confounded)
+    for (const std::size_t k : group) weak[k] = true;
+  return weak;
+}
+
+}  // namespace
+
+std::string name_in_law(const InPlantUnknowns& unknowns, std::size_t first, std::size_t k,
+                        std::size_t size) {
+  const std::size_t own = k - first;
+  for (const auto& c : unknowns.law_coefficients(std::vector<double>(size, 1.0)))
+    if (!c.weights.empty() && own >= c.first && own < c.first + c.weights.size()) {
+      const std::size_t end = c.weights.size() > 1 ? c.name.rfind('_') : std::string::npos;
+      return c.name.substr(0, end);
+    }
+  return "law";
+}
+
+Knowable knowable_of(const InPlantUnknowns& unknowns,
+                     const std::vector<std::vector<double>>& part_matrices, std::size_t n) {
+  Knowable known;
+  if (part_matrices.empty()) return known;
+  const std::vector<double> ones(part_matrices.size(), 1.0);
+  const Covariance spread = covariance(part_matrices, ones, n);
+  known.without_effect = names_of(unknowns, spread.without_effect);
+  known.confounded = named_groups(unknowns, spread);
+
+  // Singular values of the sensitivities, each column scaled to length 1.
+  std::vector<double> normal(n * n);
+  for (const std::vector<double>& one : part_matrices)
+    for (std::size_t i = 0; i < n * n; ++i) normal[i] += one[i];
+  std::vector<std::size_t> active;
+  for (std::size_t k = 0; k < n; ++k)
+    if (normal[k * n + k] > 0) active.push_back(k);
+  const std::size_t m = active.size();
+  std::vector<double> scaled(m * m), one(m * m);
+  for (std::size_t i = 0; i < m; ++i) {
+    known.unknowns.push_back(unknowns.name(active[i]));
+    one[i * m + i] = 1;
+    for (std::size_t k = 0; k < m; ++k)
+      scaled[i * m + k] =
+          normal[active[i] * n + active[k]] /
+          std::sqrt(normal[active[i] * n + active[i]] * normal[active[k] * n + active[k]]);
+  }
+  if (m == 0) return known;
+  for (const double square : eigenvalues(scaled, one, m))
+    known.singular_values.push_back(std::sqrt(std::max(square, 0.0)));
+  std::ranges::reverse(known.singular_values);
+  return known;
+}
+
+void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
+                    const Covariance& spread, InPlantReport& report) {
+  const std::vector<bool> weak = weak_ones(spread, x.size());
+  const auto interval = [&](FittedParameter& p, double deviation) {
+    p.low = p.value - kNormal95 * deviation;
+    p.high = p.value + kNormal95 * deviation;
+  };
+
+  // The plant's numbers, then the nuisances: both are single unknowns in a size of their own.
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    if (unknowns.is_of_law(k)) continue;
+    FittedParameter p = unknowns.described(k, x);
+    const double size[] = {unknowns.size_at(k, x)};
+    interval(p, std::sqrt(spread.variance(k, size)));
+    p.weak = weak[k];
+    (k < unknowns.plant_unknowns() ? report.plant : report.nuisances).push_back(std::move(p));
+  }
+
+  // The law's coefficients are weighted sums of its unknowns.
+  const std::size_t first = unknowns.plant_unknowns();
+  for (const auto& c : unknowns.law_coefficients(x)) {
+    FittedParameter p{.name = c.name, .unit = c.unit, .meaning = c.meaning, .value = c.value};
+    p.fixed = c.weights.empty();
+    p.at_bound = c.at_bound;
+    interval(p, p.fixed ? 0 : std::sqrt(spread.variance(first + c.first, c.weights)));
+    for (std::size_t k = 0; k < c.weights.size(); ++k) p.weak = p.weak || weak[first + c.first + k];
+    report.damper.push_back(std::move(p));
+  }
+}
+
+void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread,
+                  InPlantReport& report) {
+  for (const auto* list : {&report.plant, &report.damper})
+    for (const FittedParameter& p : *list)
+      if (p.at_bound)
+        report.warnings.push_back(p.name + " = " + format_number(p.value) + " " + p.unit +
+                                  " stands at a bound of its range");
+  if (const auto names = names_of(unknowns, spread.without_effect); !names.empty())
+    report.warnings.push_back(join(names, ", ") + ": no sensor shows an effect");
+  for (const auto& names : named_groups(unknowns, spread))
+    report.warnings.push_back(join(names, " and ") +
+                              " cannot be told apart by these sensors; --fix one of them");
+}
+
+void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,
+                   const InPlantOptions& options, std::vector<std::string>& warnings) {
+  if (high > low) return;
+  const std::string level = format_number(low) + " " + to_string(setup.drive_unit);
+  for (const ParameterChoice& choice : options.choices)
+    if (choice.form && *choice.form != Form::Constant)
+      throw Error("form of " + choice.parameter,
+                  "cannot be told: the drive is " + level + " all along",
+                  "record at several levels, or leave the form out");
+  const bool follows =
+      std::ranges::any_of(law.params, [](const ParamInfo& p) { return p.form != Form::Constant; });
+  if (follows && setup.drive_unit != DriveUnit::None)
+    warnings.push_back("the drive is " + level +
+                       " all along: the damper is identified there and nowhere else");
+}
+
+}  // namespace dashpot

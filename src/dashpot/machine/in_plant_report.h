@@ -1,0 +1,80 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper_model.h"
+#include "dashpot/identify.h"
+#include "dashpot/identify/fit/law_unknowns.h"
+#include "dashpot/identify/fit/uncertainty.h"
+#include "dashpot/machine/in_plant_setup.h"
+
+namespace dashpot {
+
+/// What can be told from these sensors and this excitation, before the fit: the sensitivity of all
+/// sensors to each unknown about the start.
+struct Knowable {
+  std::vector<std::string> unknowns;
+  /// Of the sensitivities, each unknown's scaled to length 1: descending. Close to 0: some cannot
+  /// be told apart.
+  std::vector<double> singular_values;
+  std::vector<std::string> without_effect;           ///< unknowns that no sensor shows
+  std::vector<std::vector<std::string>> confounded;  ///< that can be traded against each other
+};
+
+struct InPlantReport {
+  FitReport::Status status = FitReport::Status::Failed;
+  std::string message;
+  std::shared_ptr<const DamperModel> model;  ///< without an offset: in equilibrium at rest
+  std::vector<FittedParameter> plant, damper, nuisances;
+  Knowable knowable;
+  std::vector<SensorFigures> sensors;  ///< without the road: one sample ahead, not in free run
+  std::vector<InPlantTrace> traces;
+  std::vector<std::string> warnings;
+  bool road_measured = true;
+  Domain domain;  ///< of the damper's motion, as modelled
+  int iterations = 0;
+  double seconds = 0;     ///< CPU time
+  std::size_t steps = 1;  ///< of the integrator per sample
+  /// What half the step changes, rms, as a share of the rms error; the worst sensor.
+  double step_error = 0;
+};
+
+/// The unknowns of a fit inside a plant, whatever its objective: the plant's numbers, the law's,
+/// then nuisances.
+class InPlantUnknowns {
+ public:
+  virtual ~InPlantUnknowns() = default;
+  virtual std::size_t plant_unknowns() const = 0;
+  virtual bool is_of_law(std::size_t k) const = 0;
+  virtual std::string name(std::size_t k) const = 0;
+  /// Of plant unknowns and nuisances: name, unit, meaning, value, whether it stands at a bound.
+  virtual FittedParameter described(std::size_t k, std::span<const double> x) const = 0;
+  /// Likewise, how much one unit of the unknown is in SI.
+  virtual double size_at(std::size_t k, std::span<const double> x) const = 0;
+  virtual std::vector<LawUnknowns::Coefficient> law_coefficients(
+      std::span<const double> x) const = 0;
+};
+
+/// The name of unknown k, one of the law's, which are those from `first` on, of `size` in all.
+std::string name_in_law(const InPlantUnknowns& unknowns, std::size_t first, std::size_t k,
+                        std::size_t size);
+
+/// What can be told, of normal matrices (n x n) of each part of the residuals.
+Knowable knowable_of(const InPlantUnknowns& unknowns,
+                     const std::vector<std::vector<double>>& part_matrices, std::size_t n);
+
+/// The parameters at x with their 95 % intervals, into the report.
+void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
+                    const Covariance& spread, InPlantReport& report);
+/// Bounds that were met, and what cannot be told.
+void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread, InPlantReport& report);
+
+/// A current that never changes tells nothing of what the law does at others: asking for that is an
+/// error; a law that could tell it is kept to this one, and a warning says so.
+void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,
+                   const InPlantOptions& options, std::vector<std::string>& warnings);
+
+}  // namespace dashpot

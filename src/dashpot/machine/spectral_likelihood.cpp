@@ -1,0 +1,731 @@
+#include "dashpot/machine/spectral_likelihood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
+#include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/numerics/spectrum.h"
+#include "dashpot/suspension/ground/road_profile.h"
+#include "dashpot/suspension/plants/linear.h"
+
+namespace dashpot {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kLongest = 0.01;  // cycle/m, below which a road counts as level
+
+/// ISO 8608 says nothing of shorter waves, cycle/m, and tyres roll over them as if they were not
+/// there: a road that was taken for white up to the sensors' rate would make another plant likely.
+constexpr double kShortest = 2.83;
+
+/// The most samples up to `count` that are a product of 2, 3 and 5 alone.
+std::size_t quick_length(std::size_t count) {
+  for (;; --count) {
+    std::size_t left = count;
+    for (const std::size_t factor : {2u, 3u, 5u})
+      while (left % factor == 0) left /= factor;
+    if (left == 1) return count;
+  }
+}
+
+/// The inverse of a small matrix, row by row, by elimination with pivots.
+void invert(std::vector<Complex>& a, std::vector<Complex>& inverse, std::size_t n) {
+  inverse.assign(n * n, 0);
+  for (std::size_t k = 0; k < n; ++k) inverse[k * n + k] = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::norm(a[i * n + k]) > std::norm(a[pivot * n + k])) pivot = i;
+    for (std::size_t j = 0; j < n && pivot != k; ++j) {
+      std::swap(a[k * n + j], a[pivot * n + j]);
+      std::swap(inverse[k * n + j], inverse[pivot * n + j]);
+    }
+    const Complex scale = 1.0 / a[k * n + k];
+    for (std::size_t j = 0; j < n; ++j) {
+      a[k * n + j] *= scale;
+      inverse[k * n + j] *= scale;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Complex factor = a[i * n + k];
+      if (i == k || factor == 0.0) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        a[i * n + j] -= factor * a[k * n + j];
+        inverse[i * n + j] -= factor * inverse[k * n + j];
+      }
+    }
+  }
+}
+
+/// The lower factor of a Hermitian matrix, in place; false where it is not positive definite.
+bool factorise(Complex* a, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t k = 0; k < j; ++k)
+      for (std::size_t i = j; i < n; ++i) a[i * n + j] -= a[i * n + k] * std::conj(a[j * n + k]);
+    const double pivot = a[j * n + j].real();
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    const double root = std::sqrt(pivot);
+    for (std::size_t i = j; i < n; ++i) a[i * n + j] /= root;
+  }
+  return true;
+}
+
+/// x of L x = x, in place; every `stride`-th number.
+void solve_lower(const Complex* factor, std::size_t n, Complex* x, std::size_t stride = 1) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) x[i * stride] -= factor[i * n + k] * x[k * stride];
+    x[i * stride] /= factor[i * n + i].real();
+  }
+}
+
+/// What a sensor shows of a motion of the coordinates at one frequency, and of the input or the
+/// force that made it.
+struct Seen {
+  const DrivenPlant& plant;
+  double w;
+
+  Complex of(const PlantSensorPlace& sensor, const Complex* q, double carried, double on_ground,
+             Complex force, Complex admittance) const {
+    const Complex iw(0, w);
+    Complex way = -on_ground;
+    for (std::size_t k = 0; k < plant.size(); ++k) way += plant.deflection()[k] * q[k];
+    switch (sensor.quantity) {
+      case PlantQuantity::Displacement:
+        return q[sensor.coordinate];
+      case PlantQuantity::Velocity:
+        return iw * q[sensor.coordinate];
+      case PlantQuantity::Acceleration:
+        return -w * w * q[sensor.coordinate] + carried;
+      case PlantQuantity::Deflection:
+        return way;
+      case PlantQuantity::DeflectionVelocity:
+        return iw * way;
+      case PlantQuantity::DamperForce:
+        return force + admittance * way;
+    }
+    return 0;
+  }
+};
+
+/// Least squares of real coefficients over whitened lines, and the lines without what they explain.
+class EndTerms {
+ public:
+  EndTerms(std::size_t count) : count_(count), normal_(count * count), right_(count) {}
+
+  /// columns: count numbers per whitened sensor, row by row.
+  void add(const Complex* columns, const Complex* shown, std::size_t sensors) {
+    for (std::size_t s = 0; s < sensors; ++s) {
+      const Complex* row = columns + s * count_;
+      for (std::size_t i = 0; i < count_; ++i) {
+        right_[i] += (std::conj(row[i]) * shown[s]).real();
+        for (std::size_t k = 0; k <= i; ++k)
+          normal_[i * count_ + k] += (std::conj(row[i]) * row[k]).real();
+      }
+    }
+  }
+  std::vector<double> solved() {
+    std::vector<double> size(count_), found(count_);
+    for (std::size_t i = 0; i < count_; ++i)
+      size[i] = normal_[i * count_ + i] > 0 ? std::sqrt(normal_[i * count_ + i]) : 1;
+    for (std::size_t i = 0; i < count_; ++i) {
+      right_[i] /= size[i];
+      for (std::size_t k = 0; k <= i; ++k) {
+        normal_[i * count_ + k] /= size[i] * size[k];
+        normal_[k * count_ + i] = normal_[i * count_ + k];
+      }
+      normal_[i * count_ + i] += 1e-10;
+    }
+    if (!solve_positive_definite(normal_, right_, found)) return std::vector<double>(count_);
+    for (std::size_t i = 0; i < count_; ++i) found[i] /= size[i];
+    return found;
+  }
+
+ private:
+  std::size_t count_;
+  std::vector<double> normal_, right_;
+};
+
+}  // namespace
+
+SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
+                                       const std::vector<RiddenRecording>& rides,
+                                       const LawUnknowns& law, const std::vector<double>& plant,
+                                       const ObserverNoise& first, double force)
+    : setup_(&setup), rides_(&rides), law_(&law), first_(first) {
+  constexpr double kMostDelay = 20, kOfRate = 0.4, kOfWaves = 0.9;
+  sample_time_ = rides.front().recording->sample_time;
+
+  // Up to where road and plant are what they are taken for, and the damper's force changes no
+  // faster than its spring and dashpot can stand for.
+  constexpr double kOfModes = 2;
+  NamedValues numbers = setup.known;
+  for (std::size_t k = 0; k < plant.size(); ++k)
+    numbers.emplace_back(setup.unknown[k].name, plant[k]);
+  highest_ = std::min(
+      kOfRate / sample_time_,
+      kOfModes * natural_frequencies(linear_plant(make_plant(*setup.model, numbers))).back());
+  for (const PlantInputChannel& input : setup.inputs) {
+    inputs_.push_back(input.place);
+    if (input.road) highest_ = std::min(highest_, kOfWaves * kShortest * input.road->speed);
+  }
+
+  // The plant's numbers, then the law's.
+  for (std::size_t k = 0; k < setup.unknown.size(); ++k) {
+    plant_.push_back(plant[k] != 0 ? std::abs(plant[k]) : 1);
+    lower_.push_back(setup.unknown[k].lower / plant_[k]);
+    upper_.push_back(setup.unknown[k].upper / plant_[k]);
+  }
+  lower_.insert(lower_.end(), law.lower().begin(), law.lower().end());
+  upper_.insert(upper_.end(), law.upper().begin(), law.upper().end());
+
+  // Delays, in samples, then what is uncertain.
+  first_delay_ = lower_.size();
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    if (!setup.sensors[s].finds_delay) continue;
+    delays_.push_back(s);
+    lower_.push_back(-kMostDelay);
+    upper_.push_back(kMostDelay);
+  }
+  first_noise_ = lower_.size();
+  seek_noise(force);
+  for (const RiddenRecording& ridden : rides) prepared_.push_back(ride_of(ridden));
+}
+
+void SpectralLikelihood::seek(std::string name, std::string unit,
+                              std::function<double*(ObserverNoise&)> place, double low,
+                              double high) {
+  sought_.push_back({std::move(name), std::move(unit), std::move(place)});
+  lower_.push_back(std::log(low));
+  upper_.push_back(std::log(high));
+}
+
+void SpectralLikelihood::seek_noise(double force) {
+  constexpr double kLeast = 1e-4, kParted = 0.1, kSlowest = 5, kWidest = 1e3;
+  for (std::size_t e = 0; e < first_.force.size(); ++e) {
+    const std::string name = e == 0 ? "quick error of the force" : "slow error of the force";
+    const auto deviation = [e](ObserverNoise& n) { return &n.force[e].deviation; };
+    const auto memory = [e](ObserverNoise& n) { return &n.force[e].memory; };
+    seek(name, "N", deviation, kLeast * force, 2 * force);
+    seek(name + ", memory", "s", memory, e == 0 ? sample_time_ : kParted,
+         e == 0 ? kParted : kSlowest);
+  }
+  for (std::size_t s = 0; s < setup_->sensors.size(); ++s) {
+    const PlantSensor& sensor = setup_->sensors[s];
+    const auto place = [s](ObserverNoise& n) { return &n.sensors[s]; };
+    if (sensor.noise == 0)
+      seek("noise of " + sensor.channel, unit_of(sensor.place.quantity), place,
+           first_.sensors[s] / kWidest, first_.sensors[s] * kWidest);
+  }
+  const auto roughness = [](ObserverNoise& n) { return &n.roughness; };
+  for (const PlantInputChannel& input : setup_->inputs)
+    if (input.road && input.road->roughness == 0)
+      seek("roughness of the road", "m^3", roughness, road_roughness('A') / 4, road_roughness('H'));
+}
+
+SpectralLikelihood::Ride SpectralLikelihood::ride_of(const RiddenRecording& ridden) const {
+  constexpr double kLowest = 0.3, kFewestWaves = 3;  // Hz; of a recording
+  Ride ride{.samples = quick_length(ridden.samples), .shown = {}, .inputs = {}};
+  ride.duration = static_cast<double>(ride.samples) * sample_time_;
+  ride.first = static_cast<std::size_t>(std::ceil(std::max(kLowest * ride.duration, kFewestWaves)));
+  ride.end = static_cast<std::size_t>(highest_ * ride.duration);
+  const auto [low, high] = std::ranges::minmax(ridden.motion, {}, &DamperInput::current);
+  ride.steady = low.current == high.current;
+  for (const PlantSensor& sensor : setup_->sensors)
+    ride.shown.push_back(half_spectrum(
+        std::span(ridden.recording->channel(sensor.channel).samples).first(ride.samples)));
+  for (const PlantInputChannel& input : setup_->inputs)
+    ride.inputs.push_back(
+        input.road
+            ? Lines{}
+            : half_spectrum(
+                  std::span(ridden.recording->channel(input.channel).samples).first(ride.samples)));
+  return ride;
+}
+
+std::vector<double> SpectralLikelihood::start(const std::vector<double>& plant,
+                                              const std::vector<double>& law) const {
+  std::vector<double> x;
+  for (std::size_t k = 0; k < plant.size(); ++k) x.push_back(plant[k] / plant_[k]);
+  x.insert(x.end(), law.begin(), law.end());
+  for (const std::size_t s : delays_) x.push_back(setup_->sensors[s].delay / sample_time_);
+  ObserverNoise noise = first_;
+  for (const Sought& one : sought_) x.push_back(std::log(*one.place(noise)));
+  return x;
+}
+
+LawModel SpectralLikelihood::damper(std::span<const double> x) const {
+  return law_->model(x.subspan(plant_unknowns(), law_->size()));
+}
+
+ObserverNoise SpectralLikelihood::noise(std::span<const double> x) const {
+  ObserverNoise noise = first_;
+  for (std::size_t k = 0; k < sought_.size(); ++k)
+    *sought_[k].place(noise) = std::exp(x[first_noise_ + k]);
+  return noise;
+}
+
+InPlantSetup SpectralLikelihood::setup_at(std::span<const double> x) const {
+  InPlantSetup setup = *setup_;
+  for (std::size_t k = 0; k < plant_unknowns(); ++k)
+    setup.known.emplace_back(
+        setup.unknown[k].name,
+        std::clamp(plant_[k] * x[k], setup.unknown[k].lower, setup.unknown[k].upper));
+  setup.unknown.clear();
+  for (std::size_t d = 0; d < delays_.size(); ++d) {
+    setup.sensors[delays_[d]].delay = x[first_delay_ + d] * sample_time_;
+    setup.sensors[delays_[d]].finds_delay = false;
+  }
+  const ObserverNoise uncertain = noise(x);
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    setup.sensors[s].noise = uncertain.sensors[s];
+  for (PlantInputChannel& input : setup.inputs)
+    if (input.road) input.road->roughness = uncertain.roughness;
+  return setup;
+}
+
+SpectralLikelihood::Force SpectralLikelihood::force_of(std::span<const double> x,
+                                                       std::size_t ride) const {
+  const std::span<const DamperInput> motion =
+      std::span((*rides_)[ride].motion).first(prepared_[ride].samples);
+  LawModel model = damper(x);
+  if (prepared_[ride].steady) {  // constant parameters are quicker
+    std::vector<double> parameters(model.law().params.size());
+    model.parameters_at(motion.front().current, parameters.data());
+    model = LawModel::constant(model.law(), parameters);
+  }
+  std::vector<double> state(model.state_size()), force(motion.size());
+  model.rest(motion.front(), state);
+  if (model.run(motion, {.step = sample_time_}, state, {.force = force.data()}) < force.size())
+    return {};
+
+  // Least squares about the means.
+  double mean[3] = {}, product[3][3] = {};
+  const auto at = [&](std::size_t k) {
+    return std::array{motion[k].displacement, motion[k].velocity, force[k]};
+  };
+  for (std::size_t k = 0; k < force.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += at(k)[i] / static_cast<double>(force.size());
+  for (std::size_t k = 0; k < force.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        product[i][j] += (at(k)[i] - mean[i]) * (at(k)[j] - mean[j]);
+  const double dd = product[0][0], dv = product[1][0], vv = product[1][1];
+  const double determinant = dd * vv - dv * dv;
+  if (!(determinant > 0)) return {};
+  Force found;
+  found.stiffness = (product[2][0] * vv - product[2][1] * dv) / determinant;
+  found.damping = (product[2][1] * dd - product[2][0] * dv) / determinant;
+  for (std::size_t k = 0; k < force.size(); ++k)
+    force[k] -= found.stiffness * motion[k].displacement + found.damping * motion[k].velocity;
+  found.rest = half_spectrum(force);
+  return found;
+}
+
+bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, const Force& force,
+                                  Spectra& spectra) const {
+  const Ride& ride = prepared_[which];
+  const InPlantSetup setup = setup_at(x);
+  const ObserverNoise uncertain = noise(x);
+  const DrivenPlant plant(make_plant(*setup.model, setup.known), setup.strut, inputs_);
+  const std::size_t n = plant.size(), m = sensors(), lines = ride.end - ride.first;
+  const auto roads = static_cast<std::size_t>(std::ranges::count_if(
+      setup.inputs, [](const PlantInputChannel& one) { return one.road.has_value(); }));
+  const std::size_t ends = 2 * n + 2 * m + roads;
+  spectra.beyond.assign(lines * m, 0);
+  spectra.covariance.assign(lines * m * m, 0);
+  std::vector<Complex> columns(lines * m * ends), whitened(columns.size()), matrix(n * n),
+      inverse(n * n), q(n), by_force(m), by_input(m), factor(m * m), shown(m), late(m);
+  EndTerms terms(ends);
+  const double root = std::sqrt(ride.duration);
+
+  for (std::size_t l = 0; l < lines; ++l) {
+    const std::size_t line = ride.first + l;
+    const double w = kTurn * static_cast<double>(line) / ride.duration;
+    const Complex iw(0, w);
+    Complex* beyond = &spectra.beyond[l * m];
+    Complex* covariance = &spectra.covariance[l * m * m];
+    Complex* column = &columns[l * m * ends];
+
+    // The plant at this frequency, with the spring and the dashpot that stand for the damper.
+    const Complex admittance = force.stiffness + iw * force.damping;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        matrix[i * n + k] = plant.stiffness()[i * n + k] + iw * plant.damping()[i * n + k] +
+                            plant.by_force()[i] * admittance * plant.deflection()[k];
+    for (std::size_t i = 0; i < n; ++i) matrix[i * n + i] -= w * w;
+    invert(matrix, inverse, n);
+    const Seen seen{plant, w};
+    const auto respond = [&](const auto& push, std::vector<Complex>& shows, const double* carried,
+                             double on_ground, double own_force) {
+      for (std::size_t i = 0; i < n; ++i) {
+        q[i] = 0;
+        for (std::size_t k = 0; k < n; ++k) q[i] += inverse[i * n + k] * push(k);
+      }
+      for (std::size_t s = 0; s < m; ++s) {
+        const PlantSensorPlace& place = setup.sensors[s].place;
+        shows[s] = late[s] * seen.of(place, q.data(), carried ? carried[place.coordinate] : 0,
+                                     on_ground, own_force, admittance);
+      }
+    };
+    const auto add_noise = [&](const std::vector<Complex>& shows, double density) {
+      for (std::size_t s = 0; s < m; ++s)
+        for (std::size_t k = 0; k <= s; ++k)
+          covariance[s * m + k] += density * shows[s] * std::conj(shows[k]);
+    };
+    for (std::size_t s = 0; s < m; ++s) late[s] = std::exp(-iw * setup.sensors[s].delay);
+
+    // The force of the law, with its errors.
+    double density = 0;
+    for (const ForceError& error : uncertain.force)
+      density += 2 * error.deviation * error.deviation * error.memory /
+                 (1 + std::pow(w * error.memory, 2));
+    respond([&](std::size_t k) { return -plant.by_force()[k]; }, by_force, nullptr, 0, 1);
+    add_noise(by_force, density);
+    for (std::size_t s = 0; s < m; ++s) {
+      beyond[s] = sample_time_ / root * (ride.shown[s][line] - by_force[s] * force.rest[line]);
+      covariance[s * m + s] += sample_time_ * uncertain.sensors[s] * uncertain.sensors[s];
+    }
+
+    // Inputs: those measured, and roads by their prior and the step between their ends.
+    std::size_t end = 2 * n + 2 * m;
+    for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
+      const PlantInputChannel& input = setup.inputs[u];
+      respond(
+          [&](std::size_t k) {
+            return plant.by_value()[u][k] + iw * plant.by_rate()[u][k] +
+                   plant.by_force()[k] * admittance * plant.on_ground()[u];
+          },
+          by_input, plant.carried()[u].data(), plant.on_ground()[u], 0);
+      if (!input.road) {
+        add_noise(by_input, sample_time_ * input.noise * input.noise);
+        for (std::size_t s = 0; s < m; ++s)
+          beyond[s] -= sample_time_ / root * by_input[s] * ride.inputs[u][line];
+        continue;
+      }
+      const double white =
+          0.5 * uncertain.roughness * std::pow(kTurn * kReferenceWaveNumber, 2) * input.road->speed;
+      add_noise(by_input, white / (w * w + std::pow(kTurn * kLongest * input.road->speed, 2)));
+      for (std::size_t s = 0; s < m; ++s) column[s * ends + end] = by_input[s] / iw;
+      ++end;
+    }
+
+    // Where the coordinates are at both ends, and what each sensor makes of its own.
+    for (std::size_t j = 0; j < n; ++j) {
+      respond([&](std::size_t k) { return k == j ? 1.0 : 0.0; }, by_input, nullptr, 0, 0);
+      for (std::size_t s = 0; s < m; ++s) {
+        column[s * ends + 2 * j] = by_input[s];
+        column[s * ends + 2 * j + 1] = iw * by_input[s];
+      }
+    }
+    for (std::size_t s = 0; s < m; ++s) {
+      column[s * ends + 2 * n + 2 * s] = 1;
+      column[s * ends + 2 * n + 2 * s + 1] = iw;
+    }
+
+    // Whitened, for the least squares over all lines.
+    std::copy_n(covariance, m * m, factor.data());
+    if (!factorise(factor.data(), m)) return false;
+    std::copy_n(beyond, m, shown.data());
+    solve_lower(factor.data(), m, shown.data());
+    std::copy_n(column, m * ends, &whitened[l * m * ends]);
+    for (std::size_t e = 0; e < ends; ++e)
+      solve_lower(factor.data(), m, &whitened[l * m * ends + e], ends);
+    terms.add(&whitened[l * m * ends], shown.data(), m);
+  }
+
+  // Without the end terms.
+  const std::vector<double> coefficients = terms.solved();
+  for (std::size_t i = 0; i < lines * m; ++i) {
+    for (std::size_t e = 0; e < ends; ++e)
+      spectra.beyond[i] -= coefficients[e] * columns[i * ends + e];
+    if (!std::isfinite(std::norm(spectra.beyond[i]))) return false;
+  }
+  return true;
+}
+
+bool SpectralLikelihood::is_of_law(std::size_t k) const {
+  return k >= plant_unknowns() && k < first_delay_;
+}
+
+std::vector<LawUnknowns::Coefficient> SpectralLikelihood::law_coefficients(
+    std::span<const double> x) const {
+  return law_->coefficients(x.subspan(plant_unknowns(), law_->size()));
+}
+
+std::string SpectralLikelihood::name(std::size_t k) const {
+  if (k < plant_unknowns()) return setup_->unknown[k].name;
+  if (k >= first_noise_) return sought_[k - first_noise_].name;
+  if (k >= first_delay_) return "delay of " + setup_->sensors[delays_[k - first_delay_]].channel;
+  return name_in_law(*this, plant_unknowns(), k, size());
+}
+
+double SpectralLikelihood::size_at(std::size_t k, std::span<const double> x) const {
+  if (k < plant_unknowns()) return plant_[k];
+  return k >= first_noise_ ? std::exp(x[k]) : sample_time_;
+}
+
+FittedParameter SpectralLikelihood::described(std::size_t k, std::span<const double> x) const {
+  FittedParameter p{.name = name(k), .unit = "s", .meaning = {}, .value = size_at(k, x)};
+  if (k < first_noise_) p.value *= x[k];
+  const double margin = 1e-6 * std::max(1.0, std::abs(x[k]));
+  p.at_bound = x[k] <= lower_[k] + margin || x[k] >= upper_[k] - margin;
+  if (k >= first_noise_) p.unit = sought_[k - first_noise_].unit;
+  if (k >= plant_unknowns()) return p;
+  const auto& rows = setup_->model->parameters;
+  const ParameterRow& row = rows[row_named(rows, p.name, setup_->model->name, "plant")];
+  p.unit = row.unit;
+  p.meaning = row.meaning;
+  return p;
+}
+
+namespace {
+
+/// A ride at one point: its spectra whitened, and the factors that whiten them.
+struct Whitened {
+  SpectralLikelihood::Force force;
+  SpectralLikelihood::Spectra spectra;
+  std::vector<Complex> factors, residual;
+  double value = INFINITY;  ///< -log L
+};
+
+void whiten(const SpectralLikelihood& likelihood, std::span<const double> x, std::size_t ride,
+            Whitened& at) {
+  const std::size_t m = likelihood.sensors();
+  at.value = INFINITY;
+  at.force = likelihood.force_of(x, ride);
+  if (at.force.rest.empty() || !likelihood.evaluate(x, ride, at.force, at.spectra)) return;
+  at.factors = at.spectra.covariance;
+  at.residual = at.spectra.beyond;
+  double sum = 0;
+  for (std::size_t l = 0; l * m < at.residual.size(); ++l) {
+    Complex* factor = &at.factors[l * m * m];
+    if (!factorise(factor, m)) return;
+    solve_lower(factor, m, &at.residual[l * m]);
+    for (std::size_t s = 0; s < m; ++s)
+      sum += 2 * std::log(factor[s * m + s].real()) + std::norm(at.residual[l * m + s]);
+  }
+  at.value = sum;
+}
+
+/// Rows of r and J per line: of the residuals 2 per sensor, of their covariance m^2.
+std::size_t rows_per_line(std::size_t m) { return 2 * m + m * m; }
+
+/// A Hermitian matrix as real rows whose products are traces.
+void put_hermitian(const Complex* a, std::size_t m, double* rows) {
+  for (std::size_t i = 0; i < m; ++i) {
+    *rows++ = a[i * m + i].real();
+    for (std::size_t k = 0; k < i; ++k) {
+      *rows++ = std::numbers::sqrt2 * a[i * m + k].real();
+      *rows++ = std::numbers::sqrt2 * a[i * m + k].imag();
+    }
+  }
+}
+
+std::vector<double> residual_rows(const Whitened& at, std::size_t m) {
+  const std::size_t lines = at.residual.size() / m;
+  std::vector<double> rows(lines * rows_per_line(m));
+  std::vector<Complex> left(m * m);
+  for (std::size_t l = 0; l < lines; ++l) {
+    double* row = &rows[l * rows_per_line(m)];
+    const Complex* e = &at.residual[l * m];
+    for (std::size_t s = 0; s < m; ++s) {
+      row[2 * s] = std::numbers::sqrt2 * e[s].real();
+      row[2 * s + 1] = std::numbers::sqrt2 * e[s].imag();
+      for (std::size_t k = 0; k <= s; ++k)
+        left[s * m + k] = (s == k ? 1.0 : 0.0) - e[s] * std::conj(e[k]);
+    }
+    put_hermitian(left.data(), m, row + 2 * m);
+  }
+  return rows;
+}
+
+/// The rows of one unknown in one ride, by a difference; the other way where the bounds or the law
+/// leave no room. Empty: neither way.
+std::vector<double> column_rows(const SpectralLikelihood& likelihood, std::span<const double> x,
+                                std::size_t k, std::size_t ride, const Whitened& at) {
+  constexpr double kStep = 1e-5;
+  const std::size_t m = likelihood.sensors(), lines = at.residual.size() / m;
+  const double length = kStep * std::max(1.0, std::abs(x[k]));
+  const bool upward = x[k] + length <= likelihood.upper()[k];
+  std::vector<double> moved(x.begin(), x.end()), rows(lines * rows_per_line(m));
+  std::vector<Complex> change(m * m);
+  SpectralLikelihood::Spectra beside;
+  for (const double step : {upward ? length : -length, upward ? -length : length}) {
+    moved[k] = x[k] + step;
+    if (moved[k] < likelihood.lower()[k] || moved[k] > likelihood.upper()[k]) continue;
+    SpectralLikelihood::Force force;
+    if (likelihood.is_of_law(k)) force = likelihood.force_of(moved, ride);
+    if (likelihood.is_of_law(k) && force.rest.empty()) continue;
+    if (!likelihood.evaluate(moved, ride, likelihood.is_of_law(k) ? force : at.force, beside))
+      continue;
+    for (std::size_t l = 0; l < lines; ++l) {
+      double* row = &rows[l * rows_per_line(m)];
+      const Complex* factor = &at.factors[l * m * m];
+      for (std::size_t s = 0; s < m; ++s)
+        change[s] = (beside.beyond[l * m + s] - at.spectra.beyond[l * m + s]) / step;
+      solve_lower(factor, m, change.data());
+      for (std::size_t s = 0; s < m; ++s) {
+        row[2 * s] = std::numbers::sqrt2 * change[s].real();
+        row[2 * s + 1] = std::numbers::sqrt2 * change[s].imag();
+      }
+
+      // L^-1 dS L^-H: the columns, then the rows.
+      for (std::size_t i = 0; i < m; ++i)
+        for (std::size_t j = 0; j < m; ++j) {
+          const std::size_t place = l * m * m + std::max(i, j) * m + std::min(i, j);
+          const Complex d = (beside.covariance[place] - at.spectra.covariance[place]) / step;
+          change[i * m + j] = i >= j ? d : std::conj(d);
+        }
+      for (std::size_t j = 0; j < m; ++j) solve_lower(factor, m, &change[j], m);
+      for (Complex& one : change) one = std::conj(one);
+      for (std::size_t i = 0; i < m; ++i) solve_lower(factor, m, &change[i * m]);
+      for (Complex& one : change) one = std::conj(one);
+      put_hermitian(change.data(), m, row + 2 * m);
+    }
+    return rows;
+  }
+  return {};
+}
+
+/// Adds one ride's gradient, information and scores by blocks of lines.
+void add_ride(const std::vector<double>& residual, const std::vector<std::vector<double>>& columns,
+              std::size_t block, LikelihoodSlopes& slopes) {
+  const std::size_t n = columns.size();
+  for (std::size_t begin = 0; begin < residual.size(); begin += block) {
+    const std::size_t end = std::min(begin + block, residual.size());
+    std::vector<double> score(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      for (std::size_t i = begin; i < end; ++i) score[k] += columns[k][i] * residual[i];
+      slopes.gradient[k] += score[k];
+      for (std::size_t m = 0; m <= k; ++m) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += columns[k][i] * columns[m][i];
+        slopes.information[k * n + m] += sum;
+      }
+    }
+    slopes.block_scores.push_back(std::move(score));
+  }
+}
+
+double value_at(const SpectralLikelihood& likelihood, std::span<const double> x, int threads,
+                std::vector<Whitened>& at) {
+  at.resize(likelihood.rides());
+  parallel_for(at.size(), threads, [&](std::size_t r) { whiten(likelihood, x, r, at[r]); });
+  double sum = 0;
+  for (const Whitened& one : at) sum += one.value;
+  return std::isfinite(sum) ? sum : static_cast<double>(INFINITY);
+}
+
+LikelihoodSlopes slopes_of(const SpectralLikelihood& likelihood, std::span<const double> x,
+                           const std::vector<Whitened>& at, double value, int threads) {
+  constexpr std::size_t kLines = 20;  // of a block
+  const std::size_t n = likelihood.size(), rides = likelihood.rides(), m = likelihood.sensors();
+  LikelihoodSlopes slopes{.finite = std::isfinite(value), .value = value};
+  if (!slopes.finite) return slopes;
+  std::vector<std::vector<std::vector<double>>> columns(rides, std::vector<std::vector<double>>(n));
+  parallel_for(n * rides, threads, [&](std::size_t task) {
+    const std::size_t k = task / rides, r = task % rides;
+    columns[r][k] = column_rows(likelihood, x, k, r, at[r]);
+  });
+  slopes.gradient.resize(n);
+  slopes.information.resize(n * n);
+  for (const auto& ride : columns)
+    for (const std::vector<double>& column : ride) slopes.finite &= !column.empty();
+  if (!slopes.finite) return slopes;
+  for (std::size_t r = 0; r < rides; ++r)
+    add_ride(residual_rows(at[r], m), columns[r], kLines * rows_per_line(m), slopes);
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < k; ++i)
+      slopes.information[i * n + k] = slopes.information[k * n + i];
+  return slopes;
+}
+
+/// The step of those unknowns that no bound holds, and what it would win.
+std::pair<std::vector<double>, double> scoring_step(const SpectralLikelihood& likelihood,
+                                                    std::span<const double> x,
+                                                    const LikelihoodSlopes& slopes,
+                                                    double damping) {
+  const std::size_t n = x.size();
+  std::vector<std::size_t> free;
+  for (std::size_t k = 0; k < n; ++k) {
+    const bool held = (x[k] <= likelihood.lower()[k] && slopes.gradient[k] > 0) ||
+                      (x[k] >= likelihood.upper()[k] && slopes.gradient[k] < 0);
+    if (!held && slopes.information[k * n + k] > 0) free.push_back(k);
+  }
+  const std::size_t m = free.size();
+
+  // Scaled to a curvature of 1 each.
+  std::vector<double> size(m), matrix(m * m), right(m), solution(m), step(n);
+  for (std::size_t i = 0; i < m; ++i)
+    size[i] = 1 / std::sqrt(slopes.information[free[i] * n + free[i]]);
+  for (std::size_t i = 0; i < m; ++i) {
+    right[i] = -slopes.gradient[free[i]] * size[i];
+    for (std::size_t k = 0; k < m; ++k)
+      matrix[i * m + k] = slopes.information[free[i] * n + free[k]] * size[i] * size[k];
+    matrix[i * m + i] += damping;
+  }
+  if (m == 0 || !solve_positive_definite(matrix, right, solution)) return {step, 0};
+  double won = 0;
+  for (std::size_t i = 0; i < m; ++i) {
+    step[free[i]] = size[i] * solution[i];
+    won += 0.5 * right[i] * solution[i];
+  }
+  return {step, won};
+}
+
+}  // namespace
+
+MostLikely most_likely(const SpectralLikelihood& likelihood, std::vector<double> x, int iterations,
+                       int threads, const Monitor& monitor) {
+  constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-9, kMostDamping = 1e6;
+  constexpr double kFurthest = 1.5, kCloseEnough = 0.02;  // of -log L, what a step would win
+  MostLikely found;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    x[k] = std::clamp(x[k], likelihood.lower()[k], likelihood.upper()[k]);
+  std::vector<Whitened> at;
+  double value = value_at(likelihood, x, threads, at);
+  found.slopes = slopes_of(likelihood, x, at, value, threads);
+  double damping = kFirstDamping;
+  while (found.slopes.finite && found.iterations < iterations && damping < kMostDamping) {
+    monitor.check();
+    const auto [step, won] = scoring_step(likelihood, x, found.slopes, damping);
+    if (won < kCloseEnough) {
+      found.converged = true;
+      break;
+    }
+
+    // No unknown goes further than its size, or by a factor of e^1.5, at a time.
+    std::vector<double> next = x;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double most =
+          kFurthest * (likelihood.is_of_law(k) ? std::max(1.0, std::abs(x[k])) : 1.0);
+      next[k] = std::clamp(x[k] + std::clamp(step[k], -most, most), likelihood.lower()[k],
+                           likelihood.upper()[k]);
+    }
+    std::vector<Whitened> there;
+    value = value_at(likelihood, next, threads, there);
+    if (!(value < found.slopes.value)) {
+      damping *= 5;
+      continue;
+    }
+    LikelihoodSlopes slopes = slopes_of(likelihood, next, there, value, threads);
+    if (!slopes.finite) {
+      damping *= 5;
+      continue;
+    }
+    x = std::move(next);
+    found.slopes = std::move(slopes);
+    damping = std::max(damping / 5, kLeastDamping);
+    ++found.iterations;
+  }
+  found.x = std::move(x);
+  return found;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,397 @@
+#include "dashpot/machine/without_road.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/error.h"
+#include "dashpot/identify.h"
+#include "dashpot/machine/observe.h"
+#include "dashpot/machine/plant_start.h"
+#include "dashpot/machine/spectral_likelihood.h"
+#include "dashpot/numerics/linear_algebra.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kSettled = 0.2;  // s of each recording that a filter needs at first
+
+/// The samples of a recording from `first` up to `end`.
+PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end) {
+  PlantRecording part = recording;
+  part.samples = end - first;
+  for (Channel& channel : part.channels)
+    channel.samples.assign(
+        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(first),
+        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
+}
+
+/// Samples of a recording that are fitted; those behind them judge the result.
+std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording) {
+  return static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
+}
+
+/// Of motions alone only ratios of masses, stiffnesses and forces can be told.
+bool knows_a_force(const InPlantSetup& setup) {
+  const auto is_force = [](const PlantInputChannel& one) {
+    return one.place.kind == PlantInput::Force;
+  };
+  if (std::ranges::any_of(setup.inputs, is_force)) return true;
+  for (const PlantSensor& sensor : setup.sensors)
+    if (sensor.place.quantity == PlantQuantity::DamperForce) return true;
+  const auto& rows = setup.model->parameters;
+  return std::ranges::any_of(setup.known, [&](const auto& known) {
+    const auto& row = rows[row_named(rows, known.first, setup.model->name, "plant")];
+    return known.second > 0 && (row.unit.find("kg") != std::string_view::npos ||
+                                row.unit.find('N') != std::string_view::npos);
+  });
+}
+
+void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings) {
+  const std::string where = "plant, sensors";
+  if (setup.sensors.size() < 2)
+    throw Error(where,
+                "there is one, and nothing measures the road: what one sensor shows may come of "
+                "the road or of the damper",
+                "a second sensor: accelerations of body and wheel, the deflection");
+  if (!knows_a_force(setup))
+    throw Error("plant, parameters",
+                "no mass, stiffness or force is known: motions alone tell only their ratios",
+                "state one of them, the mass of the wheel, say");
+  if (std::ranges::all_of(setup.sensors, &PlantSensor::finds_delay))
+    throw Error(where, "all delays are unknown, and nothing that is measured moves the plant",
+                "state the delay of one sensor: the others are found beside it");
+  if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
+
+  constexpr std::size_t kFewest = 500;
+  for (const PlantRecording& recording : recordings) {
+    const auto first =
+        static_cast<std::size_t>(std::max(kSettled, setup.skip) / recording.sample_time);
+    const std::size_t fitted = fitted_samples(setup, recording);
+    if (fitted < kFewest + first)
+      throw Error(recording.name, "leaves " + std::to_string(fitted) + " samples to fit",
+                  "at least " + std::to_string(kFewest) + " behind those that are skipped");
+    if (recording.sample_time != recordings.front().sample_time)
+      throw Error(recording.name, "has another sample rate than " + recordings.front().name,
+                  "recordings of one rate");
+    for (const std::string& name : setup.channels()) {
+      const auto [low, high] = std::ranges::minmax(recording.channel(name).samples);
+      if (low == high && name != setup.drive)
+        throw Error(recording.name + ", " + name, "is constant: it tells nothing of the plant",
+                    "a recording in which the plant moves");
+    }
+  }
+}
+
+/// All that the stages of a fit share.
+struct Task {
+  const Law& law;
+  const InPlantSetup& setup;
+  const InPlantOptions& options;
+  std::vector<PlantRecording> fitted;  ///< what may be fitted of each recording
+  std::vector<double> plant;           ///< where the plant's unknowns start, SI
+};
+
+/// Motion and force of the damper, as observed, as a bench would have recorded them.
+Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recording,
+                       const ObservedRecording& observed) {
+  Record record{.name = recording.name, .source = recording.name, .condition = recording.name};
+  record.sample_time = recording.sample_time;
+  for (std::size_t k = 0; k < recording.samples; ++k)
+    record.time.push_back(recording.sample_time * static_cast<double>(k));
+  const char* const names[] = {"force", "displacement", "velocity"};
+  for (std::size_t q = 0; q < 3; ++q)
+    record.channels.push_back({.name = names[q],
+                               .unit = observed.quantities[q].unit,
+                               .samples = observed.quantities[q].value,
+                               .origin = "observed"});
+  if (setup.drive_unit != DriveUnit::None)
+    record.channels.push_back({.name = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current",
+                               .unit = to_string(setup.drive_unit),
+                               .samples = setup.drive.empty()
+                                              ? std::vector<double>(recording.samples, setup.level)
+                                              : recording.channel(setup.drive).samples,
+                               .origin = "as recorded"});
+  if (setup.drive_unit != DriveUnit::None) {
+    const auto [low, high] = std::ranges::minmax(record.channels.back().samples);
+    if (low == high) record.drive_level = low;
+  }
+  record.warm_up = static_cast<std::size_t>(kSettled / recording.sample_time);
+  return record;
+}
+
+/// The domain of the damper's motion in these records.
+Domain domain_of(const InPlantSetup& setup, const std::vector<Record>& records) {
+  const auto range = [&](const std::string& name, double& low, double& high) {
+    low = INFINITY;
+    high = -INFINITY;
+    for (const Record& record : records) {
+      const Channel* channel = record.find(name);
+      if (!channel) continue;
+      const auto [least, greatest] = std::ranges::minmax(channel->samples);
+      low = std::min(low, least);
+      high = std::max(high, greatest);
+    }
+    if (!(low <= high)) low = high = 0;
+  };
+  Domain domain;
+  range("displacement", domain.displacement_min, domain.displacement_max);
+  range("velocity", domain.velocity_min, domain.velocity_max);
+  range(setup.drive_unit == DriveUnit::Volt ? "voltage" : "current", domain.current_min,
+        domain.current_max);
+  return domain;
+}
+
+/// The damper's motion as a filter and its smoother see it.
+std::vector<DamperInput> motion_of(const InPlantSetup& setup, const PlantRecording& recording,
+                                   const ObservedRecording& observed) {
+  std::vector<DamperInput> motion;
+  for (std::size_t k = 0; k < recording.samples; ++k)
+    motion.push_back(
+        {observed.quantities[1].value[k], observed.quantities[2].value[k],
+         setup.drive.empty() ? setup.level : recording.channel(setup.drive).samples[k]});
+  return motion;
+}
+
+/// A dashpot in the damper's place.
+LawModel dashpot_model(double damping) {
+  const Law& law = find_law("tanh_kwok");
+  std::vector<double> parameters(law.params.size(), 0.0);
+  parameters[law.index_of("c")] = damping;
+  parameters[law.index_of("beta")] = 1;
+  return LawModel::constant(law, parameters);
+}
+
+/// The plant as it starts, with a dashpot and large errors of its force in the damper's place: what
+/// the sensors alone tell of motion and force.
+ObserveReport without_law(const Task& task) {
+  InPlantSetup setup = task.setup;
+  for (std::size_t k = 0; k < task.plant.size(); ++k)
+    setup.known.emplace_back(setup.unknown[k].name, task.plant[k]);
+  setup.unknown.clear();
+  std::vector<PlantInputPlace> inputs;
+  for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
+  const DrivenPlant equations(make_plant(*setup.model, setup.known), setup.strut, inputs);
+  const auto dashpot = std::make_shared<LawModel>(dashpot_model(usual_dashpot(equations)));
+  const Domain domain = usual_domain(0, 0);
+  const double force = observer_scale(*dashpot, domain).force;
+  return observe(dashpot, domain, setup, task.fitted,
+                 {.force = {{force, 0.02}, {force, 0.3}},
+                  .steps = 1,
+                  .threads = task.options.threads,
+                  .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
+}
+
+/// The law as a bench would find it from what was told, its sides apart where that was asked for
+/// and pays; nothing where no fit gets on.
+std::shared_ptr<const DamperModel> bench_fit(const Task& task, const std::vector<Record>& records) {
+  if (!is_law(task.law.name)) return nullptr;
+  const FitReport fit =
+      identify(std::string(task.law.name), records, task.setup.drive_unit,
+               {.choices = task.options.choices,
+                .allow_active = true,
+                .asymmetric = task.options.asymmetric,
+                .seed = task.options.seed,
+                .threads = task.options.threads,
+                .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
+  return fit.model && fit.model->law_inside() ? fit.model : nullptr;
+}
+
+/// The inverse of the information between the scores' own products, where there are enough of them.
+Covariance spread_of(const SpectralLikelihood& likelihood, const MostLikely& found) {
+  constexpr std::size_t kBlocksPerUnknown = 3;
+  const LikelihoodSlopes& slopes = found.slopes;
+  const std::size_t n = slopes.gradient.size();
+
+  // Noise that has gone to a bound is known there.
+  std::vector<double> information = slopes.information;
+  for (std::size_t k = 0; k < n; ++k)
+    if (likelihood.is_noise(k) && likelihood.described(k, found.x).at_bound)
+      for (std::size_t i = 0; i < n; ++i) information[k * n + i] = information[i * n + k] = 0;
+  Covariance spread =
+      covariance(std::vector<std::vector<double>>{information}, std::vector{1.0}, n);
+  if (slopes.block_scores.size() < kBlocksPerUnknown * n) return spread;
+
+  // Each block's score about their mean, which bounds keep off 0.
+  const auto blocks = static_cast<double>(slopes.block_scores.size());
+  std::vector<double> scores(n * n);
+  for (const std::vector<double>& score : slopes.block_scores)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        scores[i * n + k] += (score[i] - slopes.gradient[i] / blocks) *
+                             (score[k] - slopes.gradient[k] / blocks) * blocks /
+                             (blocks - static_cast<double>(n));
+  spread.matrix = product(product(spread.matrix, scores, n), spread.matrix, n);
+  return spread;
+}
+
+/// Logarithms are normal, not the numbers.
+void mend_intervals(InPlantReport& report) {
+  for (FittedParameter& p : report.nuisances) {
+    if (p.name.starts_with("delay")) continue;
+    if (p.at_bound) p.weak = false;
+    const double half = (p.high - p.low) / 2 / p.value;
+    p.low = p.value * std::exp(-half);
+    p.high = p.value * std::exp(half);
+  }
+}
+
+/// Sensors one sample ahead, before and behind what was fitted, and the damper as it is observed.
+void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise& noise,
+                const std::vector<PlantRecording>& recordings, InPlantReport& report) {
+  constexpr std::size_t kFewest = 200;  // samples held back that say something
+  const auto look = [&](const std::vector<PlantRecording>& parts) {
+    return observe(report.model, report.domain, found, parts,
+                   {.force = noise.force,
+                    .threads = task.options.threads,
+                    .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
+  };
+  const ObserveReport seen = look(task.fitted);
+  std::vector<PlantRecording> held_back;
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    if (recordings[r].samples - task.fitted[r].samples >= kFewest)
+      held_back.push_back(part_of(recordings[r], task.fitted[r].samples, recordings[r].samples));
+  const ObserveReport unseen = held_back.empty() ? ObserveReport{} : look(held_back);
+
+  report.steps = static_cast<std::size_t>(seen.steps);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const ObservedRecording& told = seen.recordings[r];
+    const auto behind =
+        std::ranges::find(unseen.recordings, recordings[r].name, &ObservedRecording::name);
+    for (std::size_t s = 0; s < told.sensors.size(); ++s)
+      report.sensors.push_back({.recording = told.name,
+                                .channel = told.sensors[s].channel,
+                                .unit = told.sensors[s].unit,
+                                .rms = told.sensors[s].rms,
+                                .training = told.sensors[s].surprise,
+                                .held_back = behind == unseen.recordings.end()
+                                                 ? std::numeric_limits<double>::quiet_NaN()
+                                                 : behind->sensors[s].surprise,
+                                .offset = told.sensors[s].offset});
+    InPlantTrace trace{.recording = told.name,
+                       .sample_time = told.sample_time,
+                       .training = task.fitted[r].samples};
+    trace.force = told.quantities[0].value;
+    trace.deflection = told.quantities[1].value;
+    trace.velocity = told.quantities[2].value;
+    for (const DamperInput& input : motion_of(found, task.fitted[r], told))
+      trace.current.push_back(input.current);
+    report.traces.push_back(std::move(trace));
+  }
+}
+
+/// The drive's range in these recordings.
+std::pair<double, double> drive_range(const InPlantSetup& setup,
+                                      const std::vector<PlantRecording>& recordings) {
+  if (setup.drive.empty()) return {setup.level, setup.level};
+  double low = INFINITY, high = -INFINITY;
+  for (const PlantRecording& recording : recordings) {
+    const auto [least, greatest] = std::ranges::minmax(recording.channel(setup.drive).samples);
+    low = std::min(low, least);
+    high = std::max(high, greatest);
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
+                                    const std::vector<PlantRecording>& recordings,
+                                    const InPlantOptions& options) {
+  const double started = cpu_seconds();
+  require_setup(setup);
+  require_tellable(setup, recordings);
+  InPlantReport report;
+  report.road_measured = false;
+  report.step_error = std::numeric_limits<double>::quiet_NaN();
+  const auto [low, high] = drive_range(setup, recordings);
+  require_drive(law, setup, low, high, options, report.warnings);
+  Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings)};
+  for (const PlantRecording& recording : recordings)
+    task.fitted.push_back(part_of(recording,
+                                  static_cast<std::size_t>(setup.skip / recording.sample_time),
+                                  fitted_samples(setup, recording)));
+
+  // The damper's motion and force without the law, and the law as a bench would find it.
+  options.monitor.report("motion and force of the damper, without the law", 0);
+  ObserveReport observed = without_law(task);
+  std::vector<Record> records;
+  for (std::size_t r = 0; r < task.fitted.size(); ++r)
+    records.push_back(as_bench_record(setup, task.fitted[r], observed.recordings[r]));
+  options.monitor.report("the law, as on a bench", 0.2);
+  const DataScale size = data_scale(records, setup.drive_unit);
+  const std::shared_ptr<const DamperModel> from_bench = bench_fit(task, records);
+  const LawUnknowns unknowns(from_bench ? from_bench->law_inside()->law() : law, size,
+                             setup.drive_unit, OffsetMode::Record, options.choices);
+  for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
+  std::vector<double> law_numbers =
+      from_bench ? unknowns.off_bounds(unknowns.of(*from_bench->law_inside())) : unknowns.start();
+
+  // The most likely of all, and once more along the motion that a filter with that sees.
+  constexpr double kFirstError = 0.1;
+  constexpr int kRounds = 2;
+  ObserverNoise noise = observed.noise;
+  noise.force = {{kFirstError * size.force, 0.01}, {kFirstError * size.force, 0.3}};
+  std::vector<double> plant = task.plant;
+  report.domain = domain_of(setup, records);
+  for (int round = 0; round < kRounds; ++round) {
+    options.monitor.report("fit, round " + std::to_string(round + 1), 0.3 + 0.3 * round);
+    std::vector<RiddenRecording> rides;
+    for (std::size_t r = 0; r < task.fitted.size(); ++r)
+      rides.push_back({&task.fitted[r], task.fitted[r].samples,
+                       motion_of(setup, task.fitted[r], observed.recordings[r])});
+    const SpectralLikelihood likelihood(setup, rides, unknowns, plant, noise, size.force);
+    const std::vector<double> start = likelihood.start(plant, law_numbers);
+
+    // What can be told is said before the fit.
+    if (round == 0) {
+      const MostLikely before = most_likely(likelihood, start, 0, options.threads, options.monitor);
+      if (before.slopes.finite)
+        report.knowable = knowable_of(likelihood, {before.slopes.information}, start.size());
+    }
+    const MostLikely found =
+        most_likely(likelihood, start, options.iterations, options.threads, options.monitor);
+    report.iterations += found.iterations;
+    report.seconds = cpu_seconds() - started;
+    if (!found.slopes.finite) {
+      report.message = "the law diverges along the motion that the sensors tell";
+      return report;
+    }
+    const InPlantSetup as_it_is = likelihood.setup_at(found.x);
+    noise = likelihood.noise(found.x);
+    report.model = std::make_shared<LawModel>(likelihood.damper(found.x));
+
+    // The next round begins here.
+    if (round + 1 < kRounds) {
+      for (std::size_t k = 0; k < plant.size(); ++k)
+        plant[k] = likelihood.described(k, found.x).value;
+      const auto first = found.x.begin() + static_cast<std::ptrdiff_t>(plant.size());
+      law_numbers.assign(first, first + static_cast<std::ptrdiff_t>(unknowns.size()));
+      observed = observe(report.model, report.domain, as_it_is, task.fitted,
+                         {.force = noise.force, .threads = options.threads});
+      continue;
+    }
+
+    // Intervals and what else is to be said.
+    report.status =
+        found.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
+    report.message = found.converged ? "most likely" : "still rising after all iterations";
+    const Covariance spread = spread_of(likelihood, found);
+    add_parameters(likelihood, found.x, spread, report);
+    mend_intervals(report);
+    add_warnings(likelihood, spread, report);
+    options.monitor.report("the damper as observed with it", 0.9);
+    add_traces(task, as_it_is, noise, recordings, report);
+  }
+  report.seconds = cpu_seconds() - started;
+  return report;
+}
+
+}  // namespace dashpot

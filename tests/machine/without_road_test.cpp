@@ -1,0 +1,123 @@
+#include "dashpot/machine/without_road.h"
+
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+const std::string kUnmeasuredCar =
+    "plant: quarter_car\n"
+    "parameters:\n"
+    "  unsprung_mass: 139.5 kg\n"
+    "  spring_stiffness: 37300 N/m\n"
+    "  sprung_mass: {about: 300 kg, from: 100 kg, to: 1000 kg}\n"
+    "  tyre_stiffness: {about: 200 kN/m, from: 100 kN/m, to: 1000 kN/m}\n"
+    "inputs:\n"
+    "  - {kind: ground, class: C, speed: 20 m/s}\n"
+    "sensors:\n"
+    "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+    "  - {channel: wheel, quantity: acceleration, at: wheel, noise: 0.05}\n"
+    "  - {channel: level, quantity: deflection, noise: 0.2 mm, delay: 2 ms}\n"
+    "voltage: coil\n";
+
+InPlantSetup unmeasured_car(const std::string& old = "", const std::string& now = "") {
+  std::string text = kUnmeasuredCar;
+  if (!old.empty()) text.replace(text.find(old), old.size(), now);
+  return parse_in_plant_setup(text, "car.yaml");
+}
+
+/// Two rides of a car whose truth is 387 kg, 295.2 N/mm and spencer1997.
+std::vector<PlantRecording> spencer_rides(double seconds) {
+  InPlantSetup truth = unmeasured_car();
+  truth.unknown.clear();
+  truth.known.insert(truth.known.end(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}});
+  std::vector<PlantRecording> recordings;
+  for (const VirtualRide& ride : virtual_campaign(truth, load_parameters("spencer1997"),
+                                                  {.duration = seconds,
+                                                   .levels = {0, 1},
+                                                   .road = "iso8608,class=C,speed=20m/s",
+                                                   .seed = 31}))
+    recordings.push_back({.name = ride.recorded.name,
+                          .sample_time = ride.recorded.sample_time,
+                          .samples = ride.recorded.size(),
+                          .channels = ride.recorded.channels});
+  return recordings;
+}
+
+}  // namespace
+
+TEST_CASE("without a road: masses, tyre and force of a damper of another structure are recovered") {
+  const InPlantReport report =
+      identify_in_plant(find_law("tanh_kwok"), unmeasured_car(), spencer_rides(12), {});
+  CAPTURE(report.message);
+  REQUIRE(report.model);
+  CHECK(report.status == FitReport::Status::Converged);
+  CHECK_FALSE(report.road_measured);
+  CHECK(report.knowable.confounded.empty());
+  REQUIRE(report.plant.size() == 2);
+  CHECK_CLOSE(report.plant[0].value, 387, 0.15, 0);
+  CHECK_CLOSE(report.plant[1].value, 295200, 0.1, 0);
+  for (const FittedParameter& p : report.plant) {
+    CHECK(p.low < p.value);
+    CHECK(p.value < p.high);
+  }
+
+  // The force over speed at both levels, against the truth's own along one motion.
+  const LawModel truth = load_parameters("spencer1997");
+  for (const double volt : {0.0, 1.0}) {
+    std::vector<DamperInput> motion;
+    for (int k = 0; k < 1000; ++k)
+      motion.push_back({0.015 * std::sin(0.03 * k), 0.015 * 15 * std::cos(0.03 * k), volt});
+    std::vector<double> z(truth.state_size()), own(report.model->state_size());
+    truth.rest(motion[0], z);
+    report.model->rest(motion[0], own);
+    double square = 0, greatest = 0;
+    for (std::size_t k = 1; k < motion.size(); ++k) {
+      truth.advance(motion[k - 1], motion[k], 0.002, z);
+      report.model->advance(motion[k - 1], motion[k], 0.002, own);
+      const double force = truth.force(motion[k], z);
+      square += std::pow(force - report.model->force(motion[k], own), 2);
+      greatest = std::max(greatest, std::abs(force));
+    }
+    CHECK(std::sqrt(square / 1000) < 0.1 * 2 * greatest);
+  }
+}
+
+TEST_CASE("without a road: what cannot be told is refused, with the reason") {
+  const std::vector<PlantRecording> recordings = spencer_rides(2);
+  const Law& law = find_law("tanh_kwok");
+  const auto refusal = [&](const InPlantSetup& setup, const std::vector<PlantRecording>& from,
+                           const InPlantOptions& options = {}) {
+    return message_of([&] { identify_in_plant(law, setup, from, options); });
+  };
+
+  // One sensor, no scale of force, no time to count delays from.
+  InPlantSetup one = unmeasured_car();
+  one.sensors.resize(1);
+  CHECK(
+      contains(refusal(one, recordings), "may come of the road or of the damper; a second sensor"));
+  InPlantSetup scaleless = unmeasured_car();
+  scaleless.known.clear();
+  CHECK(contains(refusal(scaleless, recordings), "motions alone tell only their ratios"));
+  InPlantSetup late = unmeasured_car();
+  for (PlantSensor& sensor : late.sensors) sensor.finds_delay = true;
+  CHECK(contains(refusal(late, recordings), "state the delay of one sensor"));
+
+  // Signals that tell nothing.
+  std::vector<PlantRecording> still = recordings;
+  std::ranges::fill(still[1].channels[0].samples, 0.3);
+  CHECK(contains(refusal(unmeasured_car(), still), "ride_2, body: is constant"));
+  CHECK(contains(refusal(unmeasured_car(), {recordings[0]},
+                         {.choices = {{.law = {}, .parameter = "c", .form = Form::Linear}}}),
+                 "form of c: cannot be told: the drive is 0 V all along"));
+  std::vector<PlantRecording> brief = recordings;
+  brief[0].samples = 300;
+  CHECK(contains(refusal(unmeasured_car(), brief), "leaves 225 samples to fit"));
+}
