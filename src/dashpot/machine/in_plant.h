@@ -6,6 +6,7 @@
 #include "dashpot/damper_model.h"
 #include "dashpot/identify.h"
 #include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_recording.h"
 
 namespace dashpot {
@@ -41,6 +42,7 @@ struct InPlantReport {
   std::shared_ptr<const DamperModel> model;  ///< without an offset: in equilibrium at rest
   std::vector<FittedParameter> plant, damper, nuisances;
   Knowable knowable;
+  PlantAdvice advice;
   std::vector<SensorFigures> sensors;
   std::vector<InPlantTrace> traces;
   std::vector<std::string> warnings;

@@ -1,0 +1,284 @@
+#include "dashpot/machine/day_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/suspension/ground/road_profile.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kDaySettles = 1;          // s, in which the filter settles
+constexpr double kBlock = 1;               // s, of which what is told counts as one
+constexpr std::size_t kTellStart = 500;    // samples that tell where a recording begins
+constexpr double kPlantShare = 0.02;       // of a number of the plant, for differences
+constexpr double kRoughnessFactor = 1.05;  // likewise
+
+/// A day's recording as a function of the unknowns: amounts of wear over what is usual of each,
+/// numbers of the plant over where they start, less 1, and the logarithm of the roughness over its
+/// start; each over the length of its difference.
+class DayProblem {
+ public:
+  DayProblem(const WatchedPlant& watched, const PlantRecording& recording);
+
+  std::size_t size() const { return lengths_.size(); }
+  std::size_t block() const { return block_; }
+  std::size_t settled() const { return settled_; }
+  Innovations at(const std::vector<double>& x) const { return innovations(observer(x), samples_); }
+  /// The innovations' misfit, -2 log of their likelihood but for a constant; infinite where the
+  /// filter diverges.
+  double misfit_of(const Innovations& told) const;
+  /// What the unknowns stand for.
+  void describe(const std::vector<double>& x, const std::vector<double>& deviations,
+                DayEstimate& day) const;
+  /// Mean of what that sensor shows, with its standard deviation.
+  std::pair<double, double> level_of(const std::string& channel) const;
+
+ private:
+  PlantObserver observer(const std::vector<double>& x) const;
+  double plant_value(std::size_t k, const std::vector<double>& x) const;
+  double roughness(const std::vector<double>& x) const;
+  double excitation(const std::vector<double>& x) const;
+
+  const WatchedPlant* watched_;
+  const PlantRecording* recording_;
+  ObservedSamples samples_;
+  ObserverScale scale_;
+  std::vector<double> lengths_;  ///< of a difference of each unknown, in its own size
+  std::vector<double> plant_;    ///< where unknown numbers of the plant start
+  bool finds_road_ = false;
+  std::size_t block_ = 1, settled_ = 0;
+};
+
+DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& recording)
+    : watched_(&watched),
+      recording_(&recording),
+      samples_(observed_samples(watched.setup, recording)),
+      scale_(observer_scale(*watched.damper, watched.domain)) {
+  const InPlantSetup& setup = watched.setup;
+  lengths_.assign(watched.wears.size(), 1.0);
+  for (const PlantUnknown& unknown : setup.unknown) {
+    plant_.push_back(*unknown.about);
+    lengths_.push_back(kPlantShare);
+  }
+  for (const PlantInputChannel& input : setup.inputs)
+    finds_road_ |= input.road && input.road->roughness == 0;
+  if (finds_road_) lengths_.push_back(std::log(kRoughnessFactor));
+  block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kBlock / recording.sample_time));
+  settled_ =
+      std::max(static_cast<std::size_t>(kDaySettles / recording.sample_time), samples_.count / 20);
+
+  // Means are no motion: a load or a zero moves them, and `level` tells of it.
+  const std::size_t sensors = samples_.sensors;
+  for (std::size_t s = 0; s < sensors; ++s) {
+    const double mean = level_of(setup.sensors[s].channel).first;
+    for (std::size_t k = 0; k < samples_.count; ++k) samples_.measured[k * sensors + s] -= mean;
+    scale_.offset.push_back(std::max(setup.sensors[s].zero, watched.noise.sensors[s]));
+  }
+  const std::vector<double> nothing(size(), 0.0);
+  std::vector<double> about = smoothed_start(observer(nothing), samples_, kTellStart);
+  if (std::ranges::all_of(about, [](double x) { return std::isfinite(x); }))
+    samples_.about = std::move(about);
+}
+
+double DayProblem::plant_value(std::size_t k, const std::vector<double>& x) const {
+  const PlantUnknown& unknown = watched_->setup.unknown[k];
+  const double share = kPlantShare * x[watched_->wears.size() + k];
+  return std::clamp(plant_[k] * (1 + share), unknown.lower, unknown.upper);
+}
+
+double DayProblem::roughness(const std::vector<double>& x) const {
+  return watched_->noise.roughness * (finds_road_ ? std::pow(kRoughnessFactor, x.back()) : 1);
+}
+
+double DayProblem::excitation(const std::vector<double>& x) const {
+  const std::vector<std::string> inputs = measured_inputs(watched_->setup);
+  if (inputs.empty()) return roughness(x);
+  double square = 0;
+  for (const double value : recording_->channel(inputs.front()).samples) square += value * value;
+  return std::sqrt(square / static_cast<double>(samples_.count));
+}
+
+PlantObserver DayProblem::observer(const std::vector<double>& x) const {
+  InPlantSetup setup = watched_->setup;
+  setup.unknown.clear();
+  for (std::size_t k = 0; k < plant_.size(); ++k)
+    setup.known.emplace_back(watched_->setup.unknown[k].name, plant_value(k, x));
+  ObserverNoise noise = watched_->noise;
+  noise.roughness = roughness(x);
+  std::vector<WornDamper::Amount> amounts;
+  for (std::size_t k = 0; k < watched_->wears.size(); ++k)
+    amounts.push_back({watched_->wears[k], watched_->wears[k]->usual * x[k]});
+  const auto damper = std::make_shared<WornDamper>(watched_->damper, std::move(amounts));
+  return {observer_tables(setup, *damper, noise, scale_, recording_->sample_time, watched_->steps),
+          damper};
+}
+
+double DayProblem::misfit_of(const Innovations& told) const {
+  if (told.beyond.empty()) return INFINITY;
+  double sum = 0;
+  for (std::size_t k = settled_ * samples_.sensors; k < told.beyond.size(); ++k)
+    if (told.variance[k] > 0)
+      sum += std::log(told.variance[k]) + told.beyond[k] * told.beyond[k] / told.variance[k];
+  return std::isfinite(sum) ? sum : static_cast<double>(INFINITY);
+}
+
+void DayProblem::describe(const std::vector<double>& x, const std::vector<double>& deviations,
+                          DayEstimate& day) const {
+  const std::size_t wears = watched_->wears.size();
+  for (std::size_t k = 0; k < wears; ++k) {
+    day.wear.push_back(watched_->wears[k]->usual * x[k]);
+    day.wear_deviation.push_back(watched_->wears[k]->usual * deviations[k]);
+  }
+  for (std::size_t k = 0; k < plant_.size(); ++k) {
+    day.plant.push_back(plant_value(k, x));
+    day.plant_deviation.push_back(kPlantShare * plant_[k] * deviations[wears + k]);
+  }
+  day.excitation = excitation(x);
+  if (watched_->level.empty()) return;
+  const auto [mean, deviation] = level_of(watched_->level);
+  day.wear.push_back(mean);
+  day.wear_deviation.push_back(deviation);
+}
+
+std::pair<double, double> DayProblem::level_of(const std::string& channel) const {
+  const std::vector<double>& shown = recording_->channel(channel).samples;
+  const std::size_t blocks = std::max<std::size_t>(2, shown.size() / block_),
+                    length = shown.size() / blocks;
+  const double mean =
+      std::accumulate(shown.begin(), shown.end(), 0.0) / static_cast<double>(shown.size());
+  double square = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const auto first = shown.begin() + static_cast<std::ptrdiff_t>(b * length);
+    const double own = std::accumulate(first, first + static_cast<std::ptrdiff_t>(length), 0.0) /
+                       static_cast<double>(length);
+    square += (own - mean) * (own - mean);
+  }
+  const auto count = static_cast<double>(blocks);
+  return {mean, std::sqrt(square / (count * (count - 1)))};
+}
+
+/// Slope and expected curvature of half the misfit, and what each block gives of the slope.
+struct Scores {
+  std::vector<double> information, slope;
+  std::vector<std::vector<double>> blocks;
+};
+
+/// By forward differences of the innovations and of their variances, so long for each unknown.
+std::optional<Scores> scores_at(const DayProblem& problem, const std::vector<double>& x,
+                                const std::vector<double>& lengths, const Innovations& told,
+                                std::size_t sensors) {
+  const std::size_t n = problem.size();
+  std::vector<Innovations> beside;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> moved = x;
+    moved[k] += lengths[k];
+    beside.push_back(problem.at(moved));
+    if (beside.back().beyond.empty()) return std::nullopt;
+  }
+
+  Scores scores{std::vector<double>(n * n), std::vector<double>(n), {}};
+  std::vector<double> by(n), by_variance(n);
+  for (std::size_t at = problem.settled() * sensors; at < told.beyond.size(); ++at) {
+    const double variance = told.variance[at], beyond = told.beyond[at];
+    if (!(variance > 0)) continue;
+    const std::size_t block = (at / sensors - problem.settled()) / problem.block();
+    if (block >= scores.blocks.size()) scores.blocks.emplace_back(n, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+      by[k] = (beside[k].beyond[at] - beyond) / (lengths[k] * std::sqrt(variance));
+      by_variance[k] = (beside[k].variance[at] / variance - 1) / lengths[k];
+      const double slope = by[k] * beyond / std::sqrt(variance) +
+                           0.5 * by_variance[k] * (1 - beyond * beyond / variance);
+      scores.slope[k] += slope;
+      scores.blocks.back()[k] += slope;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        scores.information[i * n + k] += by[i] * by[k] + 0.5 * by_variance[i] * by_variance[k];
+  }
+  return scores;
+}
+
+/// Standard deviations by what the blocks say of the slope, which the model's errors scatter more
+/// than their information tells.
+std::vector<double> deviations_of(const Scores& scores) {
+  const std::size_t n = scores.slope.size();
+  const auto blocks = static_cast<double>(scores.blocks.size());
+  const std::vector<double> inverted = invert_symmetric(scores.information, n).inverse;
+  std::vector<double> variance(n);
+  for (const std::vector<double>& block : scores.blocks)
+    for (std::size_t i = 0; i < n; ++i) {
+      double own = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        own += inverted[i * n + k] * (block[k] - scores.slope[k] / blocks);
+      variance[i] += own * own * blocks / std::max(blocks - 1, 1.0);
+    }
+  for (double& one : variance) one = std::sqrt(one);
+  return variance;
+}
+
+}  // namespace
+
+DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording) {
+  constexpr int kIterations = 12, kHalvings = 4;
+  constexpr double kNear = 0.01;  // of the misfit: a step that would gain less is the last
+  constexpr double kFlat = 1;     // one that gains less leaves the unknowns within their deviations
+  const DayProblem problem(watched, recording);
+  const std::size_t sensors = watched.setup.sensors.size();
+  DayEstimate day{.name = recording.name};
+  std::vector<double> x(problem.size(), 0.0);
+  Innovations told = problem.at(x);
+  double misfit = problem.misfit_of(told);
+  const auto diverges = [&] {
+    return Error(recording.name, "the filter diverges",
+                 "a damper and a plant that fit the recording");
+  };
+  if (!std::isfinite(misfit)) throw diverges();
+
+  // Differences are as long as the day leaves the unknown open: shorter than its curvature.
+  constexpr double kShortest = 1e-3;
+  std::vector<double> lengths(x.size(), 1.0);
+  std::optional<Scores> scores;
+  while (true) {
+    scores = scores_at(problem, x, lengths, told, sensors);
+    if (!scores) throw diverges();
+
+    // Newton's step by the expected curvature, and how much it would gain.
+    std::vector<double> step(x.size());
+    const std::vector<double> inverted = invert_symmetric(scores->information, x.size()).inverse;
+    double gain = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      lengths[i] = std::clamp(std::sqrt(std::max(inverted[i * x.size() + i], 0.0)), kShortest, 1.0);
+      for (std::size_t k = 0; k < x.size(); ++k)
+        step[i] -= inverted[i * x.size() + k] * scores->slope[k];
+      gain -= step[i] * scores->slope[i];
+    }
+    day.converged = gain < kFlat;
+    if (gain < kNear || day.iterations == kIterations) break;
+    ++day.iterations;
+
+    // Half of it, and half again, where the misfit does not fall.
+    bool is_better = false;
+    for (int half = 0; half <= kHalvings && !is_better; ++half) {
+      std::vector<double> moved = x;
+      for (std::size_t k = 0; k < x.size(); ++k) moved[k] += std::ldexp(step[k], -half);
+      Innovations there = problem.at(moved);
+      const double misfit_there = problem.misfit_of(there);
+      is_better = misfit_there < misfit;
+      if (!is_better) continue;
+      misfit = misfit_there;
+      told = std::move(there);
+      x = std::move(moved);
+    }
+    if (!is_better) break;
+  }
+  problem.describe(x, deviations_of(*scores), day);
+  return day;
+}
+
+}  // namespace dashpot
