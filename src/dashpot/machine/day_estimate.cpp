@@ -13,10 +13,12 @@
 namespace dashpot {
 namespace {
 
-constexpr double kDaySettles = 1;          // s, in which the filter settles
-constexpr double kBlock = 1;               // s, of which what is told counts as one
-constexpr std::size_t kTellStart = 500;    // samples that tell where a recording begins
-constexpr double kPlantShare = 0.02;       // of a number of the plant, for differences
+constexpr double kDaySettles = 1;        // s, in which the filter settles
+constexpr double kBlock = 1;             // s, of which what is told counts as one
+constexpr std::size_t kTellStart = 500;  // samples that tell where a recording begins
+constexpr double kPlantShare = 0.02;     // of a number of the plant, for differences
+constexpr double kFlat =
+    4;  // of the misfit: a step that gains less leaves the unknowns as they are
 constexpr double kRoughnessFactor = 1.05;  // likewise
 
 /// A day's recording as a function of the unknowns: amounts of wear over what is usual of each,
@@ -36,6 +38,10 @@ class DayProblem {
   /// What the unknowns stand for.
   void describe(const std::vector<double>& x, const std::vector<double>& deviations,
                 DayEstimate& day) const;
+  /// The unknown that is the road's roughness.
+  std::optional<std::size_t> road() const {
+    return finds_road_ ? std::optional(size() - 1) : std::nullopt;
+  }
   /// Mean of what that sensor shows, with its standard deviation.
   std::pair<double, double> level_of(const std::string& channel) const;
 
@@ -222,62 +228,116 @@ std::vector<double> deviations_of(const Scores& scores) {
   return variance;
 }
 
+/// The search for the unknowns of a day. The misfit is rugged where the filter's tangents change,
+/// so that differences are as long as the day leaves an unknown open, and short ones are tried
+/// where these lead nowhere.
+class DaySearch {
+ public:
+  DaySearch(const DayProblem& problem, std::size_t sensors)
+      : problem_(&problem), sensors_(sensors), x_(problem.size()), lengths_(x_.size(), 1.0) {}
+
+  /// Where all is as it is stated, the road as rough as is likely then. False where that diverges.
+  bool begin() {
+    if (!move_to(x_)) return false;
+    const std::optional<std::size_t> road = problem_->road();
+    for (const double factor : {4.0, 2.0, 1.5})
+      for (const double side : {-1.0, 1.0})
+        while (road && move_by(*road, side * std::log(factor) / std::log(kRoughnessFactor))) {
+        }
+    return true;
+  }
+  /// Steps of Newton's method by the expected curvature; how many.
+  int run() {
+    constexpr int kIterations = 15;
+    constexpr double kNear = 0.01, kFine = 0.05;
+    int iterations = 0;
+    for (; iterations < kIterations; ++iterations) {
+      scores_ = scores_at(*problem_, x_, lengths_, told_, sensors_);
+      if (!scores_) return iterations;
+      gain_ = step_by(*scores_);
+      if (gain_ < kNear) break;
+      if (moves_along()) continue;
+
+      // Short differences, and the same scores as before for what the day leaves open.
+      std::vector<double> fine = lengths_;
+      for (double& length : fine) length *= kFine;
+      const auto finer = scores_at(*problem_, x_, fine, told_, sensors_);
+      if (!finer) break;
+      const double before = gain_;
+      gain_ = step_by(*finer);
+      if (gain_ < kNear) break;
+      if (moves_along()) continue;
+      gain_ = std::min(gain_, before);
+      break;
+    }
+    return iterations;
+  }
+
+  const std::vector<double>& x() const { return x_; }
+  const Scores& scores() const { return *scores_; }
+  /// Of the misfit, by a further step; infinite where the search went astray.
+  double gain() const { return scores_ ? gain_ : static_cast<double>(INFINITY); }
+
+ private:
+  bool move_to(const std::vector<double>& x) {
+    Innovations there = problem_->at(x);
+    const double misfit = problem_->misfit_of(there);
+    if (!(misfit < misfit_)) return false;
+    x_ = x;
+    misfit_ = misfit;
+    told_ = std::move(there);
+    return true;
+  }
+  bool move_by(std::size_t unknown, double length) {
+    std::vector<double> moved = x_;
+    moved[unknown] += length;
+    return move_to(moved);
+  }
+  /// Sets step and lengths; what the step would gain.
+  double step_by(const Scores& scores) {
+    constexpr double kShortest = 0.2;
+    const std::size_t n = x_.size();
+    const std::vector<double> inverted = invert_symmetric(scores.information, n).inverse;
+    step_.assign(n, 0.0);
+    double gain = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      lengths_[i] = std::clamp(std::sqrt(std::max(inverted[i * n + i], 0.0)), kShortest, 1.0);
+      for (std::size_t k = 0; k < n; ++k) step_[i] -= inverted[i * n + k] * scores.slope[k];
+      gain -= step_[i] * scores.slope[i];
+    }
+    return gain;
+  }
+  /// The step, half of it, and half again, until the misfit falls.
+  bool moves_along() {
+    constexpr int kHalvings = 4;
+    for (int half = 0; half <= kHalvings; ++half) {
+      std::vector<double> moved = x_;
+      for (std::size_t k = 0; k < x_.size(); ++k) moved[k] += std::ldexp(step_[k], -half);
+      if (move_to(moved)) return true;
+    }
+    return false;
+  }
+
+  const DayProblem* problem_;
+  std::size_t sensors_;
+  std::vector<double> x_, lengths_, step_;
+  Innovations told_;
+  double misfit_ = INFINITY, gain_ = INFINITY;
+  std::optional<Scores> scores_;
+};
+
 }  // namespace
 
 DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording) {
-  constexpr int kIterations = 12, kHalvings = 4;
-  constexpr double kNear = 0.01;  // of the misfit: a step that would gain less is the last
-  constexpr double kFlat = 1;     // one that gains less leaves the unknowns within their deviations
   const DayProblem problem(watched, recording);
-  const std::size_t sensors = watched.setup.sensors.size();
+  DaySearch search(problem, watched.setup.sensors.size());
+  if (!search.begin())
+    throw Error(recording.name, "the filter diverges",
+                "a damper and a plant that fit the recording");
   DayEstimate day{.name = recording.name};
-  std::vector<double> x(problem.size(), 0.0);
-  Innovations told = problem.at(x);
-  double misfit = problem.misfit_of(told);
-  const auto diverges = [&] {
-    return Error(recording.name, "the filter diverges",
-                 "a damper and a plant that fit the recording");
-  };
-  if (!std::isfinite(misfit)) throw diverges();
-
-  // Differences are as long as the day leaves the unknown open: shorter than its curvature.
-  constexpr double kShortest = 1e-3;
-  std::vector<double> lengths(x.size(), 1.0);
-  std::optional<Scores> scores;
-  while (true) {
-    scores = scores_at(problem, x, lengths, told, sensors);
-    if (!scores) throw diverges();
-
-    // Newton's step by the expected curvature, and how much it would gain.
-    std::vector<double> step(x.size());
-    const std::vector<double> inverted = invert_symmetric(scores->information, x.size()).inverse;
-    double gain = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      lengths[i] = std::clamp(std::sqrt(std::max(inverted[i * x.size() + i], 0.0)), kShortest, 1.0);
-      for (std::size_t k = 0; k < x.size(); ++k)
-        step[i] -= inverted[i * x.size() + k] * scores->slope[k];
-      gain -= step[i] * scores->slope[i];
-    }
-    day.converged = gain < kFlat;
-    if (gain < kNear || day.iterations == kIterations) break;
-    ++day.iterations;
-
-    // Half of it, and half again, where the misfit does not fall.
-    bool is_better = false;
-    for (int half = 0; half <= kHalvings && !is_better; ++half) {
-      std::vector<double> moved = x;
-      for (std::size_t k = 0; k < x.size(); ++k) moved[k] += std::ldexp(step[k], -half);
-      Innovations there = problem.at(moved);
-      const double misfit_there = problem.misfit_of(there);
-      is_better = misfit_there < misfit;
-      if (!is_better) continue;
-      misfit = misfit_there;
-      told = std::move(there);
-      x = std::move(moved);
-    }
-    if (!is_better) break;
-  }
-  problem.describe(x, deviations_of(*scores), day);
+  day.iterations = search.run();
+  day.converged = search.gain() < kFlat;
+  problem.describe(search.x(), deviations_of(search.scores()), day);
   return day;
 }
 
