@@ -11,7 +11,7 @@ namespace dashpot::cli {
 namespace {
 
 /// By how much an interval shrinks, %.
-std::string less_text(double ratio) { return format_number(100 * (1 - ratio), 2); }
+std::string less_text(double ratio) { return format_number(100 * (1 - ratio), 3); }
 
 DocumentTable addition_table(const std::string& title, const std::string& what,
                              const std::vector<PlantAddition>& additions, const std::string& note) {
