@@ -97,12 +97,12 @@ DocumentTable chart_table(const Watched& watched) {
   for (const WatchedQuantity& q : watched.quantities) {
     const ChartPoint& last = q.chart.points.back();
     const bool learns = days_that_count(watched) <= watched.options.chart.reference;
-    table.rows.push_back(
-        {q.name, amount_text(q, last.expected), amount_text(q, last.scatter, 2), amount_unit(q),
-         format_number(last.sum, 3), format_number(q.chart.threshold, 3),
-         q.chart.alarm ? "alarm since " + watched.days[*q.chart.alarm].estimate.name
-         : learns      ? "learns"
-                       : "healthy"});
+    table.rows.push_back({q.name, amount_text(q, last.expected), amount_text(q, last.scatter, 2),
+                          amount_unit(q), format_number(last.sum, 3),
+                          format_number(q.chart.threshold, 3),
+                          q.chart.alarm ? "alarm at " + watched.days[*q.chart.alarm].estimate.name
+                          : learns      ? "learns"
+                                        : "healthy"});
     table.warnings.push_back(q.chart.alarm.has_value());
   }
   table.note = fmt::format(
@@ -118,8 +118,8 @@ DocumentFigure chart_figure(const Watched& watched) {
   DocumentFigure figure{.name = "charts",
                         .title = "Charts",
                         .caption =
-                            "By day: the amount with its own 95 % interval and what the days "
-                            "before had led to expect; the chart's sum and its threshold.",
+                            "By day: the amount, and between which bounds the days before had led "
+                            "to expect it; the chart's sum and its threshold.",
                         .panels = {},
                         .columns = 2};
   std::vector<double> day;
@@ -234,8 +234,8 @@ const WatchedQuantity* Watched::first_alarm() const {
 }
 
 std::string Watched::alarm_text(const WatchedQuantity& q) const {
-  return fmt::format("{} ({}) has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
-                     q.name, q.meaning, amount_text(q, q.chart.fall),
+  return fmt::format("{} has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
+                     q.meaning, amount_text(q, q.chart.fall),
                      amount_text(q, kWide95 * q.chart.fall_deviation, 2), amount_unit(q),
                      days[q.chart.since].estimate.name, days[*q.chart.alarm].estimate.name);
 }
@@ -248,10 +248,8 @@ Document watch_document(const Watched& watched) {
                     .kind = "watch"};
   const WatchedQuantity* alarm = watched.first_alarm();
   const std::size_t count = days_that_count(watched), reference = watched.options.chart.reference;
-  const std::string damper = watched.plant.damper->name();
   if (alarm)
-    document.verdict =
-        fmt::format("ALARM: of the damper ({}) {}.", damper, watched.alarm_text(*alarm));
+    document.verdict = "ALARM: " + watched.alarm_text(*alarm) + '.';
   else if (count <= reference)
     document.verdict =
         fmt::format("{} of {} reference days are there: nothing is judged yet.", count, reference);

@@ -16,7 +16,7 @@ struct Watched {
 
   /// The quantity whose alarm came first; null: none has.
   const WatchedQuantity* first_alarm() const;
-  /// "force has fallen by 12 +- 3 % since ..."
+  /// "the damper's whole force has fallen by 12 +- 3 % since ..."
   std::string alarm_text(const WatchedQuantity& quantity) const;
 };
 

@@ -73,7 +73,7 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
   const Value& chart = alarmed.find("charts")->items()[0];
   CHECK(chart.find("since")->as_string() == "day_20.csv");
   CHECK(std::abs(chart.find("fall")->as_number() - 0.3) < 0.06);
-  CHECK(contains(run_dashpot(words).output, "ALARM: of the damper"));
+  CHECK(contains(run_dashpot(words).output, "ALARM: the damper's whole force has fallen by"));
 
   // Another plant is no plant of this state.
   const std::string other =

@@ -84,6 +84,7 @@ PlantAddition addition_of(std::string what, const std::vector<double>& before,
     addition.of_most = ratio;
   }
   addition.intervals = std::exp(sum / static_cast<double>(numbers.size()));
+  if (addition.of_most >= 1) addition.most.clear();
   return addition;
 }
 
@@ -156,37 +157,43 @@ std::string words_of(PlantSensorPlace place, const Plant& plant) {
              : word;
 }
 
-/// J'J of what such sensors would show, over their samples without their mean; empty where the
-/// plant diverges beside the best.
-std::vector<Information> information_at(const EndedFit& fit,
-                                        const std::vector<PlantSensorPlace>& places, int threads) {
+/// Adds J'J of what such sensors would show in one recording, over their samples without their
+/// mean. False where the plant diverges beside the best.
+bool add_information(const EndedFit& fit, std::size_t recording,
+                     const std::vector<PlantSensorPlace>& places, int threads,
+                     std::vector<Information>& sums) {
   constexpr double kStep = 1e-5;
   const std::vector<double>& x = fit.solved.x;
-  const auto shown = fit.residuals.other_sensors(x, places);
-  std::vector<std::vector<std::vector<double>>> slopes(x.size());
+  const auto shown = fit.residuals.other_sensors(x, recording, places);
+  std::vector<PlantResiduals::Shown> slopes(x.size());
   parallel_for(x.size(), threads, [&](std::size_t k) {
     std::vector<double> moved = x;
     const double length = kStep * std::max(1.0, std::abs(x[k]));
     moved[k] += length;
-    auto there = fit.residuals.other_sensors(moved, places);
-    for (std::size_t s = 0; s < there.size(); ++s)
-      for (std::size_t i = 0; i < there[s].size(); ++i)
-        there[s][i] = (there[s][i] - shown[s][i]) / length;
-    slopes[k] = std::move(there);
+    slopes[k] = fit.residuals.other_sensors(moved, recording, places);
+    for (std::size_t s = 0; s < slopes[k].size() && s < shown.size(); ++s)
+      for (std::size_t i = 0; i < shown[s].size(); ++i)
+        slopes[k][s][i] = (slopes[k][s][i] - shown[s][i]) / length;
   });
-
-  std::vector<Information> all;
   if (shown.empty() || std::ranges::any_of(slopes, [](const auto& one) { return one.empty(); }))
-    return all;
-  for (std::size_t s = 0; s < places.size(); ++s) {
-    Information information(x.size() * x.size());
+    return false;
+
+  for (std::size_t s = 0; s < places.size(); ++s)
     for (std::size_t i = 0; i < x.size(); ++i)
-      for (std::size_t k = 0; k <= i; ++k)
-        information[i * x.size() + k] = information[k * x.size() + i] =
+      for (std::size_t k = 0; k < x.size(); ++k)
+        sums[s][i * x.size() + k] +=
             std::inner_product(slopes[i][s].begin(), slopes[i][s].end(), slopes[k][s].begin(), 0.0);
-    all.push_back(std::move(information));
-  }
-  return all;
+  return true;
+}
+
+/// The same over all recordings; empty where the plant diverges in one.
+std::vector<Information> information_at(const EndedFit& fit,
+                                        const std::vector<PlantSensorPlace>& places, int threads) {
+  const std::size_t n = fit.solved.x.size();
+  std::vector<Information> sums(places.size(), Information(n * n));
+  for (std::size_t recording = 0; recording < fit.cases.all.size(); ++recording)
+    if (!add_information(fit, recording, places, threads, sums)) return {};
+  return sums;
 }
 
 /// Information about the unknowns that every recording shares, the others left open: those at

@@ -28,7 +28,7 @@ struct ParameterProfile {
 struct PlantAddition {
   std::string what;      ///< "velocity of body", "a recording at twice the amplitude"
   double intervals = 1;  ///< geometric mean of their widths over those of now
-  std::string most;      ///< the number whose interval shrinks most
+  std::string most;      ///< the number whose interval shrinks most; empty: none does
   double of_most = 1;    ///< its width over that of now
 };
 

@@ -413,24 +413,21 @@ Covariance PlantResiduals::covariance_at(const LeastSquaresReport& solved) const
 }
 
 PlantResiduals::Shown PlantResiduals::other_sensors(
-    std::span<const double> x, const std::vector<PlantSensorPlace>& places) const {
+    std::span<const double> x, std::size_t recording,
+    const std::vector<PlantSensorPlace>& places) const {
   std::vector<PlantSensorPlace> all = sensors_;
   all.insert(all.end(), places.begin(), places.end());
-  const DrivenPlant plant = equations(x);
-  const LawModel model = damper(x);
-  Shown samples(places.size());
-  for (std::size_t c = 0; c < cases_->all.size(); ++c) {
-    const PlantCase& one = cases_->all[c];
-    Shown shown;
-    if (!run(x, plant, model, one, c, one.training, all, shown)) return {};
-    for (std::size_t p = 0; p < places.size(); ++p) {
-      const std::span<const double> fitted =
-          std::span(shown[sensors_.size() + p]).subspan(one.first, one.training - one.first);
-      const double mean = mean_of(fitted);
-      for (const double value : fitted) samples[p].push_back(value - mean);
-    }
+  const PlantCase& one = cases_->all[recording];
+  Shown shown;
+  if (!run(x, equations(x), damper(x), one, recording, one.training, all, shown)) return {};
+  shown.erase(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(sensors_.size()));
+  for (std::vector<double>& samples : shown) {
+    samples.resize(one.training);
+    samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(one.first));
+    const double mean = mean_of(samples);
+    for (double& value : samples) value -= mean;
   }
-  return samples;
+  return shown;
 }
 
 double PlantResiduals::step_error(std::span<const double> x,

@@ -67,9 +67,10 @@ class PlantResiduals {
   std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const;
   LawModel damper(std::span<const double> x) const;
 
-  /// What sensors at other places would show, without offset and delay: per place the samples that
-  /// are fitted, all recordings behind each other, each without its mean. Empty where it diverges.
-  Shown other_sensors(std::span<const double> x, const std::vector<PlantSensorPlace>& places) const;
+  /// What sensors at other places would show in a recording, without offset and delay: per place
+  /// the samples that are fitted, without their mean. Empty where it diverges.
+  Shown other_sensors(std::span<const double> x, std::size_t recording,
+                      const std::vector<PlantSensorPlace>& places) const;
   std::size_t first_state() const { return first_state_; }
   double scale_of(std::size_t sensor) const { return scale_[sensor]; }
 

@@ -131,7 +131,7 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
       if (sensor.channel == watched.level)
         quantities.push_back({watched.level,
                               unit_of(sensor.place.quantity),
-                              "mean of the day, as of the gas force",
+                              "the mean of " + watched.level,
                               quantities.size(),
                               {}});
 

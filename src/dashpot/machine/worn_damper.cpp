@@ -9,15 +9,15 @@ namespace dashpot {
 
 const std::vector<Wear>& wears() {
   static const std::vector<Wear> kWears = {
-      {"force", "1", "of the whole force", 0.02,
+      {"force", "1", "the damper's whole force", 0.02,
        [](const DamperInput&, double force) { return force; }},
-      {"rebound", "1", "of the force that resists extension", 0.02,
+      {"rebound", "1", "the damper's force against extension", 0.02,
        [](const DamperInput&, double force) { return std::max(force, 0.0); }},
-      {"compression", "1", "of the force that resists compression", 0.02,
+      {"compression", "1", "the damper's force against compression", 0.02,
        [](const DamperInput&, double force) { return std::min(force, 0.0); }},
-      {"viscous", "N*s/m", "of the force by its speed", 20,
+      {"viscous", "N*s/m", "the part of the damper's force that goes with its speed", 20,
        [](const DamperInput& input, double) { return input.velocity; }},
-      {"stiffness", "N/m", "of the force by its deflection, as of its gas", 200,
+      {"stiffness", "N/m", "the part of the damper's force that goes with its deflection", 200,
        [](const DamperInput& input, double) { return input.displacement; }}};
   return kWears;
 }
