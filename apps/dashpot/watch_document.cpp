@@ -113,64 +113,76 @@ DocumentTable chart_table(const Watched& watched) {
   return table;
 }
 
-/// Values by day with the band of what was expected, and below it the chart's sum.
-DocumentFigure chart_figure(const Watched& watched) {
-  DocumentFigure figure{.name = "charts",
-                        .title = "Charts",
-                        .caption =
-                            "By day: the amount, and between which bounds the days before had led "
-                            "to expect it; the chart's sum and its threshold.",
-                        .panels = {},
-                        .columns = 2};
-  std::vector<double> day;
-  for (std::size_t d = 0; d < watched.days.size(); ++d) day.push_back(static_cast<double>(d + 1));
-  for (const WatchedQuantity& q : watched.quantities) {
-    const double factor = is_share(q) ? 100 : 1;
-    FigurePanel values{.title = q.name + (is_share(q) ? ", %" : ""),
-                       .x_label = "day",
-                       .y_label = q.name + (is_share(q) ? ", %" : ""),
-                       .series = {},
-                       .reads_along_x = true,
-                       .y_unit = is_share(q) ? "" : q.unit};
-    FigureSeries band{.label = "expected, 95 %",
-                      .colour = "modelled",
-                      .mark = FigureSeries::Mark::Area,
-                      .is_read = false,
-                      .opacity = 0.2};
-    FigureSeries dots{
-        .label = "estimated", .colour = "measured", .mark = FigureSeries::Mark::Dots, .width = 2.5};
-    FigureSeries lower = {.label = "", .colour = "modelled", .mark = FigureSeries::Mark::Dashes};
-    FigureSeries upper = lower;
-    for (std::size_t d = 0; d < watched.days.size(); ++d) {
-      const ChartPoint& point = q.chart.points[d];
-      dots.x.push_back(day[d]);
-      dots.y.push_back(factor * watched.days[d].estimate.wear[q.place]);
-      dots.names.push_back(watched.days[d].estimate.name);
-      if (!(point.scatter > 0)) continue;
-      for (FigureSeries* edge : {&lower, &upper}) edge->x.push_back(day[d]);
-      lower.y.push_back(factor * (point.expected - kWide95 * point.scatter));
-      upper.y.push_back(factor * (point.expected + kWide95 * point.scatter));
-    }
-    lower.label = "expected, 95 %";
-    lower.is_read = upper.is_read = false;
-    upper.label = lower.label;
-    values.series = {std::move(lower), std::move(upper), std::move(dots)};
+std::vector<double> day_numbers(const Watched& watched) {
+  std::vector<double> numbers;
+  for (std::size_t d = 0; d < watched.days.size(); ++d)
+    numbers.push_back(static_cast<double>(d + 1));
+  return numbers;
+}
 
-    FigurePanel sums{.title = "sum of " + q.name,
-                     .x_label = "day",
-                     .y_label = "sum",
-                     .series = {},
-                     .reads_along_x = true};
-    FigureSeries sum{.label = "sum", .colour = "measured", .x = day};
-    for (const ChartPoint& point : q.chart.points) sum.y.push_back(point.sum);
-    FigureSeries threshold{.label = "alarm above",
-                           .colour = "series-4",
-                           .x = {day.front(), day.back()},
-                           .y = {q.chart.threshold, q.chart.threshold},
-                           .mark = FigureSeries::Mark::Dashes};
-    sums.series = {std::move(sum), std::move(threshold)};
-    figure.panels.push_back(std::move(values));
-    figure.panels.push_back(std::move(sums));
+/// A quantity by day, between the bounds in which it was expected.
+FigurePanel value_panel(const Watched& watched, const WatchedQuantity& q) {
+  const double factor = is_share(q) ? 100 : 1;
+  const std::string label = q.name + (is_share(q) ? ", %" : "");
+  FigurePanel panel{.title = label,
+                    .x_label = "day",
+                    .y_label = label,
+                    .series = {},
+                    .reads_along_x = true,
+                    .y_unit = is_share(q) ? "" : q.unit};
+  FigureSeries dots{.label = "estimated",
+                    .colour = "measured",
+                    .x = day_numbers(watched),
+                    .mark = FigureSeries::Mark::Dots,
+                    .width = 2.5};
+  FigureSeries lower{.label = "expected, 95 %",
+                     .colour = "modelled",
+                     .mark = FigureSeries::Mark::Dashes,
+                     .is_read = false};
+  FigureSeries upper = lower;
+  for (std::size_t d = 0; d < watched.days.size(); ++d) {
+    const ChartPoint& point = q.chart.points[d];
+    dots.y.push_back(factor * watched.days[d].estimate.wear[q.place]);
+    dots.names.push_back(watched.days[d].estimate.name);
+    if (!(point.scatter > 0)) continue;
+    for (FigureSeries* edge : {&lower, &upper}) edge->x.push_back(dots.x[d]);
+    lower.y.push_back(factor * (point.expected - kWide95 * point.scatter));
+    upper.y.push_back(factor * (point.expected + kWide95 * point.scatter));
+  }
+  panel.series = {std::move(lower), std::move(upper), std::move(dots)};
+  return panel;
+}
+
+/// The chart's sum by day, and its threshold.
+FigurePanel sum_panel(const Watched& watched, const WatchedQuantity& q) {
+  FigurePanel panel{.title = "sum of " + q.name,
+                    .x_label = "day",
+                    .y_label = "sum",
+                    .series = {},
+                    .reads_along_x = true};
+  FigureSeries sum{.label = "sum", .colour = "measured", .x = day_numbers(watched)};
+  for (const ChartPoint& point : q.chart.points) sum.y.push_back(point.sum);
+  FigureSeries threshold{.label = "alarm above",
+                         .colour = "series-4",
+                         .x = {sum.x.front(), sum.x.back()},
+                         .y = {q.chart.threshold, q.chart.threshold},
+                         .mark = FigureSeries::Mark::Dashes};
+  panel.series = {std::move(sum), std::move(threshold)};
+  return panel;
+}
+
+DocumentFigure chart_figure(const Watched& watched) {
+  DocumentFigure figure{
+      .name = "charts",
+      .title = "Charts",
+      .caption =
+          "By day: the amount, and between which bounds the days before had led to expect "
+          "it; the chart's sum and its threshold.",
+      .panels = {},
+      .columns = 2};
+  for (const WatchedQuantity& q : watched.quantities) {
+    figure.panels.push_back(value_panel(watched, q));
+    figure.panels.push_back(sum_panel(watched, q));
   }
   return figure;
 }

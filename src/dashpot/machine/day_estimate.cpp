@@ -13,22 +13,20 @@
 namespace dashpot {
 namespace {
 
-constexpr double kDaySettles = 1;        // s, in which the filter settles
-constexpr double kBlock = 1;             // s, of which what is told counts as one
-constexpr std::size_t kTellStart = 500;  // samples that tell where a recording begins
-constexpr double kPlantShare = 0.02;     // of a number of the plant, for differences
-constexpr double kFlat =
-    4;  // of the misfit: a step that gains less leaves the unknowns as they are
+constexpr double kDaySettles = 1;          // s, in which the filter settles
+constexpr double kBlock = 1;               // s, of which what is told counts as one
+constexpr std::size_t kTellStart = 500;    // samples that tell where a recording begins
+constexpr double kPlantShare = 0.02;       // of a number of the plant: its size as an unknown
 constexpr double kRoughnessFactor = 1.05;  // likewise
+constexpr double kFlat = 4;  // of the misfit: where no step promises more, the search has ended
 
-/// A day's recording as a function of the unknowns: amounts of wear over what is usual of each,
-/// numbers of the plant over where they start, less 1, and the logarithm of the roughness over its
-/// start; each over the length of its difference.
+/// A day's recording as a function of the unknowns: amounts of wear, numbers of the plant beside
+/// where they start, the logarithm of the roughness over its start; each in steps of its size.
 class DayProblem {
  public:
   DayProblem(const WatchedPlant& watched, const PlantRecording& recording);
 
-  std::size_t size() const { return lengths_.size(); }
+  std::size_t size() const { return size_; }
   std::size_t block() const { return block_; }
   std::size_t settled() const { return settled_; }
   Innovations at(const std::vector<double>& x) const { return innovations(observer(x), samples_); }
@@ -55,8 +53,8 @@ class DayProblem {
   const PlantRecording* recording_;
   ObservedSamples samples_;
   ObserverScale scale_;
-  std::vector<double> lengths_;  ///< of a difference of each unknown, in its own size
-  std::vector<double> plant_;    ///< where unknown numbers of the plant start
+  std::size_t size_ = 0;       ///< unknowns
+  std::vector<double> plant_;  ///< where unknown numbers of the plant start
   bool finds_road_ = false;
   std::size_t block_ = 1, settled_ = 0;
 };
@@ -67,14 +65,10 @@ DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& record
       samples_(observed_samples(watched.setup, recording)),
       scale_(observer_scale(*watched.damper, watched.domain)) {
   const InPlantSetup& setup = watched.setup;
-  lengths_.assign(watched.wears.size(), 1.0);
-  for (const PlantUnknown& unknown : setup.unknown) {
-    plant_.push_back(*unknown.about);
-    lengths_.push_back(kPlantShare);
-  }
+  for (const PlantUnknown& unknown : setup.unknown) plant_.push_back(*unknown.about);
   for (const PlantInputChannel& input : setup.inputs)
     finds_road_ |= input.road && input.road->roughness == 0;
-  if (finds_road_) lengths_.push_back(std::log(kRoughnessFactor));
+  size_ = watched.wears.size() + plant_.size() + (finds_road_ ? 1 : 0);
   block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kBlock / recording.sample_time));
   settled_ =
       std::max(static_cast<std::size_t>(kDaySettles / recording.sample_time), samples_.count / 20);
