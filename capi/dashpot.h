@@ -305,6 +305,42 @@ DASHPOT_API dashpot_status dashpot_export(const dashpot_model* model, const char
 DASHPOT_API dashpot_status dashpot_simulate(const char* options, const dashpot_monitor* monitor,
                                             dashpot_recordings** trace, char** report);
 
+// ---- Dampers inside a plant -------------------------------------------------
+
+/// What sensors recorded of a plant: channels of any name, of which the plant says which is which.
+typedef struct dashpot_rides dashpot_rides;
+
+DASHPOT_API dashpot_status dashpot_rides_new(dashpot_rides** rides);
+/// One table per file, of any format that recordings come in; a folder stands for those in it.
+DASHPOT_API dashpot_status dashpot_rides_load(dashpot_rides* rides, const char* path);
+/// Copies the samples. Names hold their units: "az_body [m/s^2]"; without one: SI. Time is in
+/// `sample_time` or in a column "time". `conditions` must be null. On failure nothing is added.
+DASHPOT_API dashpot_status dashpot_rides_add(dashpot_rides* rides, const dashpot_table* table);
+DASHPOT_API size_t dashpot_rides_count(const dashpot_rides* rides);
+DASHPOT_API void dashpot_rides_free(dashpot_rides** rides);
+
+/// The damper as the unknown part of a plant: `dashpot identify --in`. `plant`: a file, words, or
+/// the text of such a file (docs/in-plant.md). Options in the words of the command: {"models":
+/// ["tanh_kwok"], "form": [...], "fix": [...], "free": [...], "bounds": [...], "starts": 12,
+/// "seed": 1, "threads": 0, "grade": "car", "profile": ["sprung_mass"], "command": "TEXT that the
+/// model file keeps"}; "models" has one law here, the others may be absent. The report (null: not
+/// wanted) is that of the command, and "found": the plant as it was found, which dashpot_observe
+/// takes. DASHPOT_NOT_USABLE where the plant diverges wherever the fit begins; the report says how.
+DASHPOT_API dashpot_status dashpot_identify_in_plant(const dashpot_rides* rides, const char* plant,
+                                                     const char* options,
+                                                     const dashpot_monitor* monitor,
+                                                     dashpot_model** model, char** report);
+
+/// What no sensor showed of a plant whose damper is known: `dashpot observe`. Options (null: none):
+/// {"causal": false, "force_error": [[N, s], ...], "level": 0.9, "steps": 0, "threads": 0}.
+/// `estimates`: a recording for each ride, with damper_force, the plant's motion and the road, and
+/// of each half the width of its band as "NAME_half_band". The report (null: not wanted) has the
+/// uncertainties, how the sensors fitted them, and warnings.
+DASHPOT_API dashpot_status dashpot_observe(const dashpot_model* model, const dashpot_rides* rides,
+                                           const char* plant, const char* options,
+                                           const dashpot_monitor* monitor,
+                                           dashpot_recordings** estimates, char** report);
+
 #ifdef __cplusplus
 }
 #endif

@@ -6,6 +6,7 @@
 #include "dashpot.h"
 #include "dashpot/identify.h"
 #include "dashpot/rank.h"
+#include "dashpot/record/readers/table.h"
 #include "status.h"
 
 // The objects behind the pointers of dashpot.h.
@@ -29,6 +30,10 @@ struct dashpot_ranking {
   dashpot::Dataset dataset;  ///< the report shows it
   dashpot::Ranking ranking;
   std::string command, date;
+};
+
+struct dashpot_rides {
+  std::vector<dashpot::RawTable> tables;
 };
 
 namespace dashpot::capi {

@@ -30,18 +30,6 @@ RawColumn copy_column(const dashpot_named_column& named, std::size_t samples) {
   return column;
 }
 
-RawTable copy_table(const dashpot_table& table, const std::string& name) {
-  RawTable raw;
-  raw.file = name;
-  for (std::size_t k = 0; k < table.column_count; ++k)
-    raw.columns.push_back(copy_column(table.columns[k], table.samples));
-  if (table.sample_time == 0) return raw;
-  if (!(table.sample_time > 0) || !std::isfinite(table.sample_time))
-    throw Error("sample_time", "is not a number of s above 0");
-  raw.sample_time = table.sample_time;
-  return raw;
-}
-
 /// The force is stated, so that its sign stays.
 FileStatement statement_of(const RawTable& raw, const char* conditions) {
   FileStatement statement;
@@ -106,6 +94,18 @@ const Record& record_at(const dashpot_recordings* recordings, std::size_t place)
 }  // namespace
 
 namespace dashpot::capi {
+
+RawTable copy_table(const dashpot_table& table, const std::string& name) {
+  RawTable raw;
+  raw.file = name;
+  for (std::size_t k = 0; k < table.column_count; ++k)
+    raw.columns.push_back(copy_column(table.columns[k], table.samples));
+  if (table.sample_time == 0) return raw;
+  if (!(table.sample_time > 0) || !std::isfinite(table.sample_time))
+    throw Error("sample_time", "is not a number of s above 0");
+  raw.sample_time = table.sample_time;
+  return raw;
+}
 
 Dataset usable_dataset(const dashpot_recordings* recordings) {
   require(recordings, "recordings");

@@ -7,6 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/in_plant_setup.h"
 
 namespace dashpot::capi {
 namespace {
@@ -183,6 +184,53 @@ DriveOptions read_drive_options(const char* text) {
     if (!(seconds >= 0) || !std::isfinite(seconds))
       throw Error(std::string("options, ") + name, "is " + format_number(seconds), "s, 0 or more");
   return out;
+}
+
+InPlantWords read_in_plant_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  InPlantWords out;
+
+  // One law, with the words that have a meaning inside a plant.
+  FitWords& words = out.fit.words;
+  words.models = texts(reader, "models");
+  words.forms = texts(reader, "form");
+  words.fixed = texts(reader, "fix");
+  words.freed = texts(reader, "free");
+  words.bounds = texts(reader, "bounds");
+  words.options.starts = whole_int(reader, "starts", InPlantOptions().starts, 1);
+  words.options.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
+  words.options.threads = whole_int(reader, "threads", words.options.threads);
+
+  // What is asked of the result.
+  out.grade = reader.string("grade", InPlantOptions().grade);
+  out.profiles = texts(reader, "profile");
+  out.fit.command = reader.string("command", "");
+  reader.finish();
+  if (words.models.size() != 1)
+    throw Error("options, models", "are " + std::to_string(words.models.size()) + " laws", "one");
+  return out;
+}
+
+ObserveOptions read_observe_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  ObserveOptions options;
+  options.causal = reader.boolean("causal", options.causal);
+  options.level = reader.number("level", options.level);
+  options.steps = whole_int(reader, "steps", options.steps);
+  options.threads = whole_int(reader, "threads", options.threads);
+  if (const Value* errors = reader.optional("force_error"))
+    for (const Value& one : errors->items()) {
+      const std::vector<double> numbers = one.as_numbers();
+      if (numbers.size() != 2 || !(numbers[0] > 0) || !(numbers[1] > 0))
+        throw Error("options, force_error", "holds another thing than [N, s]", "[[30, 0.01]]");
+      options.force.push_back({numbers[0], numbers[1]});
+    }
+  reader.finish();
+  if (!(options.level > 0 && options.level < 1))
+    throw Error("options, level", "is " + format_number(options.level), "between 0 and 1");
+  return options;
 }
 
 std::vector<std::pair<std::string, double>> read_conditions(const char* text) {

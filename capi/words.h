@@ -4,6 +4,7 @@
 
 #include "dashpot/export.h"
 #include "dashpot/identify/fit/fit_words.h"
+#include "dashpot/machine/observe.h"
 #include "dashpot/vehicle.h"
 
 namespace dashpot::capi {
@@ -44,6 +45,15 @@ struct DriveOptions {
   std::uint64_t seed = 1;
 };
 DriveOptions read_drive_options(const char* text);
+
+/// The options of dashpot_identify_in_plant: the words of a fit, and what a plant has beside them.
+struct InPlantWords {
+  FitOptions fit;
+  std::string grade;
+  std::vector<std::string> profiles;
+};
+InPlantWords read_in_plant_options(const char* text);
+ObserveOptions read_observe_options(const char* text);
 
 /// {"gap": 0.001}
 std::vector<std::pair<std::string, double>> read_conditions(const char* text);

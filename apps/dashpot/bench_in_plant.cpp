@@ -8,7 +8,9 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/observe.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/machine/worn_damper.h"
 #include "dashpot/record/record_file.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/report/provenance.h"
@@ -91,6 +93,22 @@ std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings&
   return {damper.drive_min, 0.5 * (damper.drive_min + damper.drive_max), damper.drive_max};
 }
 
+/// The damper as the set has it, or worn.
+std::shared_ptr<const DamperModel> true_damper(const ParameterSet& damper, double level,
+                                               const PlantBenchSettings& settings) {
+  const auto as_new = std::make_shared<LawModel>(damper.model);
+  if (settings.wear.empty()) return as_new;
+  std::vector<WornDamper::Amount> amounts;
+  for (const std::string& word : settings.wear) {
+    const std::size_t equals = word.find('=');
+    const auto value =
+        equals == std::string::npos ? std::nullopt : parse_number(word.substr(equals + 1));
+    if (!value) throw UsageError("--wear", "is '" + word + "'", "force=-0.1");
+    amounts.push_back({&find_wear(word.substr(0, equals), "--wear"), *value});
+  }
+  return std::make_shared<WornDamper>(mounted(as_new, level), std::move(amounts));
+}
+
 }  // namespace
 
 std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
@@ -106,6 +124,11 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
            .help = "with --in: true values of what the plant calls unknown, as sprung_mass=350kg",
            .value = "LIST",
            .default_text = "those of the plant's table"},
+          {.names = "--wear",
+           .target = &settings.wear,
+           .help = "with --in: changes of the damper's force, as force=-0.1 (10 % less); what "
+                   "'dashpot watch' finds",
+           .value = "LIST"},
 
           // What moves it, for how long, and how well that is seen.
           {.names = "--road",
@@ -125,6 +148,13 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
            .help = "with --in: of each ride, s",
            .value = "S",
            .minimum = 1},
+          {.names = "--hold",
+           .target = &settings.hold,
+           .help = "with --in: one ride that holds each level so long, s, one after the other at "
+                   "random",
+           .value = "S",
+           .minimum = 0,
+           .default_text = "a ride per level"},
           {.names = "--grade",
            .target = &settings.grade,
            .help = "with --in: of sensors whose noise is not stated",
@@ -136,9 +166,11 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
 void require_no_plant(const PlantBenchSettings& settings) {
   const PlantBenchSettings usual;
   for (const auto& [option, is_said] : {std::pair{"--true", !settings.truth.empty()},
+                                        {"--wear", !settings.wear.empty()},
                                         {"--road", !settings.road.empty()},
                                         {"--push", settings.push != usual.push},
                                         {"--duration", settings.duration != usual.duration},
+                                        {"--hold", settings.hold != usual.hold},
                                         {"--grade", settings.grade != usual.grade}})
     if (is_said) throw UsageError(option, "goes with --in");
 }
@@ -166,11 +198,13 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
       .duration = settings.duration,
       .sample_rate = campaign.sample_rate > 0 ? campaign.sample_rate : 500,
       .levels = levels_of(setup, campaign, damper),
+      .hold = settings.hold,
       .road = road_of(setup, settings),
       .push = settings.push,
       .seed = campaign.bench.seed,
       .monitor = console.monitor()};
-  const std::vector<VirtualRide> rides = virtual_campaign(setup, damper.model, options);
+  const std::vector<VirtualRide> rides =
+      virtual_campaign(setup, *true_damper(damper, options.levels.front(), settings), options);
 
   // All rides before the first file.
   Value list = Value::array();

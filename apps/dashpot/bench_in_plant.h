@@ -9,8 +9,9 @@ namespace dashpot::cli {
 /// A campaign inside a plant in place of a test bench.
 struct PlantBenchSettings {
   std::string plant;  ///< a file or words; empty: on the bench
-  std::vector<std::string> truth;
+  std::vector<std::string> truth, wear;
   std::string road, grade = "car";
+  double hold = 0;  ///< s, of a level within one ride; 0: a ride per level
   double duration = 10, push = 0;
 };
 

@@ -5,13 +5,13 @@
 namespace dashpot::cli {
 
 std::vector<Command> all_commands() {
-  return {identify_command(),   rank_command(),    search_command(),       identify_many_command(),
-          evaluate_command(),   inspect_command(), characterise_command(), compare_command(),
-          models_command(),     member_command(),  physics_command(),      design_command(),
-          invert_command(),     track_command(),   observe_command(),      simulate_command(),
-          ride_command(),       sweep_command(),   merge_command(),        study_command(),
-          export_command(),     studio_command(),  bench_command(),        demo_command(),
-          completion_command(), version_command()};
+  return {identify_command(), rank_command(),       search_command(),       identify_many_command(),
+          evaluate_command(), inspect_command(),    characterise_command(), compare_command(),
+          models_command(),   member_command(),     physics_command(),      design_command(),
+          invert_command(),   track_command(),      observe_command(),      watch_command(),
+          simulate_command(), ride_command(),       sweep_command(),        merge_command(),
+          study_command(),    export_command(),     studio_command(),       bench_command(),
+          demo_command(),     completion_command(), version_command()};
 }
 
 std::vector<Option> common_options(Console& console) {

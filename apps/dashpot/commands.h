@@ -8,6 +8,7 @@ namespace dashpot::cli {
 Command identify_command();
 Command identify_many_command();
 Command observe_command();
+Command watch_command();
 Command rank_command();
 Command search_command();
 Command evaluate_command();

@@ -55,7 +55,8 @@ const std::vector<TopicRow>& topic_rows() {
       {"plant",
        "The damper in a plant",
        {"bench", "export"},
-       {"--in", "--true", "--road", "--push", "--duration", "--grade", "--force-error"}},
+       {"--in", "--true", "--road", "--push", "--duration", "--hold", "--grade", "--force-error",
+        "--wear"}},
       {"sensors",
        "The sensors of the bench",
        {"bench"},
@@ -90,7 +91,8 @@ const std::vector<TopicRow>& topic_rows() {
        {},
        {"--figures", "--pdf", "--no-report", "--traces", "--covariance", "--mat", "--samples",
         "--markdown"}},
-      {"machines", "Many machines", {}, {"--part", "--simd"}}};
+      {"machines", "Many machines", {}, {"--part", "--simd"}},
+      {"plant", "The damper in a plant", {"identify"}, {"--grade", "--profile"}}};
   return rows;
 }
 

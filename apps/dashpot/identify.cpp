@@ -16,7 +16,7 @@ struct IdentifySettings {
   RideRankSettings ride;
   KitSettings kit;
   std::string validate;  ///< further recordings, never fitted; empty: none
-  std::string plant;     ///< in which the damper works; empty: on a bench
+  InPlantSettings plant;
 };
 
 constexpr std::string_view kIdentifyExample =
@@ -69,7 +69,7 @@ std::optional<Dataset> further_recordings(const IdentifySettings& asked, const D
 
 int run_identify(const IdentifySettings& asked, Console& console) {
   const RankingSettings& settings = asked.ranking;
-  if (!asked.plant.empty()) {
+  if (!asked.plant.plant.empty()) {
     require_bench(asked);
     return run_in_plant(asked.plant, settings, console);
   }
@@ -133,16 +133,7 @@ Command identify_command() {
 
   // The vehicle that the models are ridden in, or the plant that the damper was recorded in.
   append(command.options, ride_rank_options(settings->ride));
-  append(command.options,
-         {{.names = "--in",
-           .target = &settings->plant,
-           .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
-                   "a YAML file or words (docs/in-plant.md)",
-           .value = "PLANT",
-           .takes = Takes::File,
-           .default_text = "a bench that measures the damper's force",
-           .details = "; the laws of --models are identified as part of it, with its unknown "
-                      "numbers"}});
+  append(command.options, in_plant_options(settings->plant));
   return command;
 }
 

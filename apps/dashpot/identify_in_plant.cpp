@@ -9,8 +9,11 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_list.h"
+#include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
 #include "document_text.h"
+#include "plant_advice_section.h"
 
 namespace dashpot::cli {
 namespace {
@@ -183,56 +186,6 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
   return figure;
 }
 
-Value json_of(const FittedParameter& p) {
-  return Value::object({{"name", p.name},
-                        {"unit", p.unit},
-                        {"value", p.value},
-                        {"low", p.low},
-                        {"high", p.high},
-                        {"fixed", p.fixed},
-                        {"at_bound", p.at_bound},
-                        {"weak", p.weak}});
-}
-
-Value json_of(const SensorFigures& s) {
-  return Value::object({{"recording", s.recording},
-                        {"sensor", s.channel},
-                        {"unit", s.unit},
-                        {"rms", s.rms},
-                        {"error_fitted", s.training},
-                        {"error_held_back", s.held_back},
-                        {"offset", s.offset}});
-}
-
-template <class T>
-Value json_of(const std::vector<T>& all) {
-  Value list = Value::array();
-  for (const T& one : all) list.push_back(json_of(one));
-  return list;
-}
-
-Value json_of(const InPlantFit& fit) {
-  const InPlantReport& r = fit.report;
-  Value confounded = Value::array();
-  for (const auto& group : r.knowable.confounded) confounded.push_back(Value::array(group));
-
-  return Value::object({{"law", fit.law},
-                        {"converged", r.status == FitReport::Status::Converged},
-                        {"message", r.message},
-                        {"iterations", r.iterations},
-                        {"cpu_seconds", r.seconds},
-                        {"steps_per_sample", r.steps},
-                        {"step_error", r.step_error},
-                        {"plant", json_of(r.plant)},
-                        {"damper", json_of(r.damper)},
-                        {"nuisances", json_of(r.nuisances)},
-                        {"singular_values", Value::array(r.knowable.singular_values)},
-                        {"without_effect", Value::array(r.knowable.without_effect)},
-                        {"confounded", std::move(confounded)},
-                        {"sensors", json_of(r.sensors)},
-                        {"warnings", Value::array(r.warnings)}});
-}
-
 Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSetup& setup,
                            const Console& console) {
   const InPlantFit& best = fits.front();
@@ -277,11 +230,14 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
     if (!best.report.nuisances.empty())
       section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
     if (best.report.road_measured) section.tables.back().audience = Audience::Files;
-    section.figures = {sensor_figure(best.report, setup)};
+    add_advice(best.report.advice, section);
+    section.figures.insert(section.figures.begin(), sensor_figure(best.report, setup));
     section.remarks = knowable_lines(best.report);
     document.sections.push_back(std::move(section));
   }
-  document.data = Value::object({{"plant", setup.model->name}, {"fits", json_of(fits)}});
+  Value list = Value::array();
+  for (const InPlantFit& fit : fits) list.push_back(to_json(fit.report, fit.law));
+  document.data = Value::object({{"plant", setup.model->name}, {"fits", std::move(list)}});
   return document;
 }
 
@@ -289,11 +245,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
 void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
                  const std::vector<std::string>& paths, double sample_time, const fs::path& folder,
                  Console& console) {
-  ModelFile file;
-  file.model = fit.report.model->with_offset(0);
-  file.drive_unit = setup.drive_unit;
-  file.sample_time = sample_time;
-  file.domain = fit.report.domain;
+  ModelFile file = found_damper(fit.report, setup, sample_time);
 
   // What it was fitted to, so that it is not judged by that unawares.
   file.provenance.created = date_now();
@@ -304,7 +256,6 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
     file.provenance.training_records.push_back(fs::path(path).filename().string());
   }
 
-  file.dissipation = dissipation(*file.model, file.domain);
   if (!file.dissipation->dissipates())
     console.warn(fit.law + ": " + activity(*file.dissipation, file.drive_unit));
   save_model(file, folder / (fit.law + ".json"));
@@ -312,10 +263,36 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
 
 }  // namespace
 
-int run_in_plant(const std::string& words, const RankingSettings& settings, Console& console) {
+std::vector<Option> in_plant_options(InPlantSettings& settings) {
+  std::vector<std::string> grades;
+  for (const SensorGrade& grade : sensor_grades())
+    if (grade.sensors[0] > 0) grades.push_back(grade.name);
+  return {{.names = "--in",
+           .target = &settings.plant,
+           .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
+                   "a YAML file or words (docs/in-plant.md)",
+           .value = "PLANT",
+           .takes = Takes::File,
+           .default_text = "a bench that measures the damper's force",
+           .details = "; the laws of --models are identified as part of it, with its unknown "
+                      "numbers"},
+          {.names = "--grade",
+           .target = &settings.grade,
+           .help = "with --in: the grade of the sensors that it tries beside those that are there",
+           .value = "NAME",
+           .choices = grades,
+           .noun = "grade"},
+          {.names = "--profile",
+           .target = &settings.profiles,
+           .help = "with --in: numbers of plant and damper whose misfit is followed with all "
+                   "others fitted anew; those that no sensor tells are so unasked",
+           .value = "LIST"}};
+}
+
+int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console) {
   // All that can be wrong is found before the work.
   require_meaning(settings);
-  const InPlantSetup setup = read_in_plant_setup(words);
+  const InPlantSetup setup = read_in_plant_setup(asked.plant);
   if (settings.fit.options.asymmetric && !has_unmeasured_road(setup))
     throw UsageError("--asymmetric", "has no meaning where the road is measured",
                      "both sides of the damper are alike there");
@@ -331,6 +308,8 @@ int run_in_plant(const std::string& words, const RankingSettings& settings, Cons
                          .asymmetric = fit.asymmetric,
                          .seed = fit.seed,
                          .threads = fit.threads,
+                         .grade = asked.grade,
+                         .profiles = asked.profiles,
                          .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
   std::vector<InPlantFit> fits;

@@ -1,13 +1,23 @@
 #pragma once
 #include <string>
+#include <vector>
 
+#include "dashpot/machine/in_plant_setup.h"
 #include "ranking_run.h"
 
 namespace dashpot::cli {
 
-/// Identifies the laws asked for as the damper of a plant, which `words` describe, from recordings
-/// of that plant: prints and writes a report, and a model file per law. Throws UsageError at
-/// settings that have no meaning there, Error at a plant and recordings that do not fit.
-int run_in_plant(const std::string& words, const RankingSettings& settings, Console& console);
+/// What an identification inside a plant is told beside what the bench's is.
+struct InPlantSettings {
+  std::string plant;  ///< in which the damper works; empty: on a bench
+  std::string grade = InPlantOptions().grade;
+  std::vector<std::string> profiles;
+};
+std::vector<Option> in_plant_options(InPlantSettings& settings);
+
+/// Identifies the laws asked for as the damper of a plant from recordings of that plant: prints and
+/// writes a report, and a model file per law. Throws UsageError at settings that have no meaning
+/// there, Error at a plant and recordings that do not fit.
+int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console);
 
 }  // namespace dashpot::cli

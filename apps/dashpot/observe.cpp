@@ -14,6 +14,7 @@
 #include "dashpot/base/date.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/record/record_file.h"
 #include "dashpot/report/quantity.h"
@@ -76,21 +77,6 @@ std::vector<PlantRecording> read_truths(const ObserveSettings& settings,
                                           {"damper_force"}, names));
   }
   return truths;
-}
-
-/// The estimates over time as a record: each quantity with half the width of its band.
-Record record_of(const ObservedRecording& observed) {
-  Record record;
-  record.name = observed.name;
-  record.sample_time = observed.sample_time;
-  for (std::size_t k = 0; k < observed.quantities.front().value.size(); ++k)
-    record.time.push_back(observed.sample_time * static_cast<double>(k));
-  for (const ObservedQuantity& q : observed.quantities) {
-    record.channels.push_back({.name = q.name, .unit = q.unit, .samples = q.value, .origin = {}});
-    record.channels.push_back(
-        {.name = q.name + "_half_band", .unit = q.unit, .samples = q.half, .origin = {}});
-  }
-  return record;
 }
 
 /// The first second, in which the filter settles, does not count.
@@ -295,31 +281,8 @@ DocumentFigure observed_figure(const ObserveReport& report,
   return figure;
 }
 
-Value json_of(const ObserveReport& report, const std::vector<TruthFigure>& truth,
-              const InPlantSetup& setup) {
-  Value recordings = Value::array(), errors = Value::array(), against = Value::array();
-
-  // What was found of each recording.
-  for (const ObservedRecording& one : report.recordings) {
-    Value sensors = Value::array(), quantities = Value::array();
-    for (const ObservedSensor& s : one.sensors)
-      sensors.push_back(Value::object({{"sensor", s.channel},
-                                       {"unit", s.unit},
-                                       {"rms", s.rms},
-                                       {"unexpected", s.surprise},
-                                       {"inside", s.inside},
-                                       {"offset", s.offset}}));
-    for (const ObservedQuantity& q : one.quantities)
-      quantities.push_back(
-          Value::object({{"name", q.name}, {"unit", q.unit}, {"half_band_mean", mean_of(q.half)}}));
-    recordings.push_back(Value::object({{"name", one.name},
-                                        {"quantities", std::move(quantities)},
-                                        {"sensors", std::move(sensors)}}));
-  }
-
-  // What was taken as uncertain, and the distance to the truth.
-  for (const ForceError& one : report.noise.force)
-    errors.push_back(Value::object({{"deviation_N", one.deviation}, {"memory_s", one.memory}}));
+Value truth_json(const std::vector<TruthFigure>& truth) {
+  Value against = Value::array();
   for (const TruthFigure& f : truth)
     against.push_back(Value::object({{"recording", f.recording},
                                      {"quantity", f.quantity},
@@ -327,15 +290,7 @@ Value json_of(const ObserveReport& report, const std::vector<TruthFigure>& truth
                                      {"error", f.error},
                                      {"span", f.span},
                                      {"inside", f.inside}}));
-  return Value::object({{"plant", setup.model->name},
-                        {"force_errors", std::move(errors)},
-                        {"sensor_noise", Value::array(report.noise.sensors)},
-                        {"roughness_m3", report.noise.roughness},
-                        {"steps_per_sample", report.steps},
-                        {"cpu_seconds", report.seconds},
-                        {"recordings", std::move(recordings)},
-                        {"truth", std::move(against)},
-                        {"warnings", Value::array(report.warnings)}});
+  return against;
 }
 
 Document observe_document(const ObserveReport& report, const std::vector<PlantRecording>& truths,
@@ -380,7 +335,8 @@ Document observe_document(const ObserveReport& report, const std::vector<PlantRe
                                  : "Uncertainties",
                     .lines = noise_lines(report, setup)}};
   document.sections.push_back(std::move(section));
-  document.data = json_of(report, truth, setup);
+  document.data = to_json(report, setup);
+  document.data.add("truth", truth_json(truth));
   return document;
 }
 
@@ -394,12 +350,7 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   const InPlantSetup setup = read_in_plant_setup(settings.plant);
   ModelFile file =
       load_damper_file({.model = settings.model, .parameters = {}}, "observe", console);
-  if (setup.drive_unit != DriveUnit::None && file.drive_unit != DriveUnit::None &&
-      setup.drive_unit != file.drive_unit)
-    throw Error(settings.model,
-                "takes " + to_string(file.drive_unit) + ", and the plant states " +
-                    to_string(setup.drive_unit),
-                "'voltage' or 'current' of the plant as the damper has it");
+  require_plant_drive(setup, file, settings.model);
   page_units(settings.units);
   std::vector<PlantRecording> recordings;
   for (const std::string& name : recording_files(settings.recordings))
@@ -429,7 +380,7 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   const fs::path folder = settings.folder;
   std::string where = "\n" + write_document(document, folder, "report");
   for (const ObservedRecording& one : report.recordings)
-    save_csv(record_of(one), folder / (fs::path(one.name).stem().string() + "_observed.csv"),
+    save_csv(estimates_of(one), folder / (fs::path(one.name).stem().string() + "_observed.csv"),
              file_units(settings.units));
   console.print(where + "Samples  " + (folder / "*_observed.csv").string() + '\n');
   if (console.json) console.print_json(document_json(document));

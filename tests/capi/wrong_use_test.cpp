@@ -68,6 +68,19 @@ std::map<std::string, Call> null_calls() {
       {"compare", [] { return dashpot_compare(nullptr, 0, nullptr, nullptr); }},
       {"export", [] { return dashpot_export(nullptr, nullptr, nullptr); }},
       {"simulate", [] { return dashpot_simulate(nullptr, nullptr, nullptr, nullptr); }},
+      {"rides_new", [] { return dashpot_rides_new(nullptr); }},
+      {"rides_load", [] { return dashpot_rides_load(nullptr, nullptr); }},
+      {"rides_add", [] { return dashpot_rides_add(nullptr, nullptr); }},
+      {"rides_count", quietly([] { CHECK(dashpot_rides_count(nullptr) == 0); })},
+      {"rides_free", quietly([] { dashpot_rides_free(nullptr); })},
+      {"identify_in_plant",
+       [] {
+         return dashpot_identify_in_plant(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+       }},
+      {"observe",
+       [] {
+         return dashpot_observe(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+       }},
   };
 }
 

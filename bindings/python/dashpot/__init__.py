@@ -13,6 +13,7 @@ from ._core import DamperModel, Error, NotUsable, __version__
 from ._identify import Ranking, identify
 from ._learn import Identifier
 from ._looks import characterise, compare
+from ._plant import Observation, PlantFit, identify_in_plant, observe
 from ._recordings import Recordings
 from ._simulate import Trace, simulate
 
@@ -24,6 +25,8 @@ __all__ = [
     "Error",
     "Identifier",
     "NotUsable",
+    "Observation",
+    "PlantFit",
     "Ranking",
     "Recordings",
     "Trace",
@@ -31,7 +34,9 @@ __all__ = [
     "characterise",
     "compare",
     "identify",
+    "identify_in_plant",
     "load",
+    "observe",
     "plot",
     "published",
     "simulate",

@@ -2,6 +2,7 @@
 
 #include "model.h"
 #include "recordings.h"
+#include "rides.h"
 
 using namespace dashpot_python;
 
@@ -307,5 +308,12 @@ PYBIND11_MODULE(_core, module) {
   module.def("compare", &compare);
   module.def("export", &export_files);
   module.def("simulate", &simulate);
+  py::class_<Rides>(module, "_Rides")
+      .def(py::init<>())
+      .def("__len__", &Rides::count)
+      .def("load", &Rides::load)
+      .def("add", &Rides::add);
+  module.def("identify_in_plant", &identify_in_plant);
+  module.def("observe", &observe);
   module.def("understand_column", &understand_column);
 }

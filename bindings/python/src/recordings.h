@@ -3,6 +3,25 @@
 
 namespace dashpot_python {
 
+/// Columns by their names, which live as long as this; `arrays` keeps the samples.
+struct NamedColumns {
+  NamedColumns(const py::dict& table, Columns& arrays) {
+    std::vector<dashpot_column> samples;
+    for (const auto& [key, values] : table) {
+      names.push_back(py::str(key));
+      samples.push_back(
+          arrays.add(py::reinterpret_borrow<py::object>(values), names.back().c_str()));
+    }
+    for (std::size_t k = 0; k < names.size(); ++k)
+      columns.push_back({names[k].c_str(), samples[k]});
+  }
+  NamedColumns(const NamedColumns&) = delete;
+  NamedColumns& operator=(const NamedColumns&) = delete;
+
+  std::vector<std::string> names;
+  std::vector<dashpot_named_column> columns;
+};
+
 /// Recordings: what dashpot.Recordings builds on.
 class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
  public:
@@ -31,23 +50,15 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
   void add(const py::dict& table, const py::object& name, const py::object& sample_time,
            const py::object& conditions) {
     Columns arrays;
-    std::vector<std::string> names;
-    std::vector<dashpot_column> columns;
-    for (const auto& [key, values] : table) {
-      names.push_back(py::str(key));
-      columns.push_back(
-          arrays.add(py::reinterpret_borrow<py::object>(values), names.back().c_str()));
-    }
-    std::vector<dashpot_named_column> named;
-    for (std::size_t k = 0; k < names.size(); ++k) named.push_back({names[k].c_str(), columns[k]});
+    const NamedColumns named(table, arrays);
     const std::string own_name = name.is_none() ? "" : name.cast<std::string>();
     const std::string stated = conditions.is_none() ? "" : conditions.cast<std::string>();
     dashpot_table copied = {};
     copied.name = name.is_none() ? nullptr : own_name.c_str();
     copied.samples = arrays.samples();
     copied.sample_time = sample_time.is_none() ? 0 : sample_time.cast<double>();
-    copied.columns = named.data();
-    copied.column_count = named.size();
+    copied.columns = named.columns.data();
+    copied.column_count = named.columns.size();
     copied.conditions = conditions.is_none() ? nullptr : stated.c_str();
     check(dashpot_recordings_add(get(), &copied));
   }

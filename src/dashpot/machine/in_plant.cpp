@@ -13,6 +13,7 @@
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
 #include "dashpot/machine/without_road.h"
+#include "dashpot/machine/virtual_campaign.h"
 
 namespace dashpot {
 namespace {
@@ -112,6 +113,33 @@ std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantC
   return steps;
 }
 
+/// Numbers whose profile is wanted must be among those that are fitted.
+void require_profiles(const Law& law, const InPlantSetup& setup, const DataScale& scale,
+                      const InPlantOptions& options) {
+  if (options.profiles.empty()) return;
+  std::vector<std::string> known;
+  for (const PlantUnknown& unknown : setup.unknown) known.push_back(unknown.name);
+  const LawUnknowns unknowns(law, scale, setup.drive_unit, OffsetMode::Record, options.choices);
+  for (const auto& c : unknowns.coefficients(unknowns.start()))
+    if (c.weights.size() == 1) known.push_back(c.name);
+  for (const std::string& name : options.profiles)
+    if (std::ranges::find(known, name) == known.end())
+      throw Error("profile", "'" + name + "' is no number that is fitted by itself",
+                  suggest(name, known));
+}
+
+/// Numbers whose local interval is not to be believed, a few, and those whose profile is wanted.
+std::vector<std::string> profiled(const InPlantReport& report, const InPlantOptions& options) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> names = options.profiles;
+  for (const auto* list : {&report.plant, &report.damper})
+    for (const FittedParameter& p : *list)
+      if (p.weak && !p.fixed && names.size() < options.profiles.size() + kMost &&
+          std::ranges::find(names, p.name) == names.end())
+        names.push_back(p.name);
+  return names;
+}
+
 /// Solves with each sensor's scale, takes the rms that is left as the new one, and solves again
 /// until the scales stay. A single sensor needs no second round.
 LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> x,
@@ -151,6 +179,8 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   require_drive(law, setup, low, high, options, report.warnings);
   const PlantStart start = plant_start(setup, recordings, cases, options);
   report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
+
+  require_profiles(law, setup, start.scale, options);
 
   // The law's unknowns in the size of these data, and a start from which the fit gets on.
   if (options.steps == 0)
@@ -198,6 +228,12 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   const Covariance spread = residuals.covariance_at(solved);
   add_parameters(residuals, solved.x, spread, report);
   add_warnings(residuals, spread, report);
+
+  // What would help, and how far doubtful numbers may lie.
+  const EndedFit ended{setup, cases, unknowns, residuals, solved, start.plant, start.scale};
+  if (!options.grade.empty())
+    report.advice = advise(ended, find_sensor_grade(options.grade, "grade"), options);
+  report.advice.profiles = profiles_of(ended, spread, profiled(report, options), options);
 
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));

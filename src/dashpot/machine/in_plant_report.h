@@ -10,6 +10,7 @@
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_advice.h"
 
 namespace dashpot {
 
@@ -30,6 +31,7 @@ struct InPlantReport {
   std::shared_ptr<const DamperModel> model;  ///< without an offset: in equilibrium at rest
   std::vector<FittedParameter> plant, damper, nuisances;
   Knowable knowable;
+  PlantAdvice advice;
   std::vector<SensorFigures> sensors;  ///< without the road: one sample ahead, not in free run
   std::vector<InPlantTrace> traces;
   std::vector<std::string> warnings;

@@ -82,7 +82,10 @@ struct InPlantOptions {
   int iterations = 100;
   std::uint64_t seed = 1;
   int threads = 0;
-  std::size_t steps = 0;  ///< of the integrator per sample; 0: as many as its error asks for
+  std::size_t steps = 0;      ///< of the integrator per sample; 0: as many as its error asks for
+  std::string grade = "car";  ///< of sensors that are not there and may be advised; none: ""
+  /// Numbers whose profile is wanted, beside those that no sensor tells.
+  std::vector<std::string> profiles = {};
   Monitor monitor;
 };
 

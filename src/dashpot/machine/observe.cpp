@@ -9,7 +9,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
-#include "dashpot/machine/plant_smoother.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/minimise.h"
 #include "dashpot/suspension/dampers/damper_words.h"
@@ -29,35 +28,6 @@ double rms_of(const std::vector<double>& samples) {
   for (const double sample : samples) sum += sample / count;
   for (const double sample : samples) square += (sample - sum) * (sample - sum) / count;
   return std::sqrt(square);
-}
-
-ObservedSamples samples_of(const InPlantSetup& setup, const PlantRecording& recording) {
-  const std::vector<std::string> inputs = measured_inputs(setup);
-  ObservedSamples samples{.count = recording.samples,
-                          .inputs = inputs.size(),
-                          .sensors = setup.sensors.size(),
-                          .driven = {},
-                          .measured = {}};
-  if (samples.count < kFewestObserved)
-    throw Error(recording.name, "has " + std::to_string(samples.count) + " samples",
-                std::to_string(kFewestObserved) + " or more");
-  std::vector<const std::vector<double>*> driven;
-  for (const std::string& channel : inputs) driven.push_back(&recording.channel(channel).samples);
-  if (!setup.drive.empty()) driven.push_back(&recording.channel(setup.drive).samples);
-
-  // A late sensor is brought forward.
-  std::vector<std::vector<double>> measured;
-  for (const PlantSensor& sensor : setup.sensors) {
-    const std::vector<double>& shown = recording.channel(sensor.channel).samples;
-    measured.push_back(sensor.delay == 0 ? shown
-                                         : delayed(shown, recording.sample_time, -sensor.delay));
-  }
-  for (std::size_t k = 0; k < samples.count; ++k) {
-    for (const std::vector<double>* channel : driven) samples.driven.push_back((*channel)[k]);
-    if (setup.drive.empty()) samples.driven.push_back(setup.level);
-    for (const std::vector<double>& channel : measured) samples.measured.push_back(channel[k]);
-  }
-  return samples;
 }
 
 /// What is uncertain as logarithms of those that were not stated, which are searched for.
@@ -308,7 +278,37 @@ void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup
   }
 }
 
-/// The damper in equilibrium at rest, where the springs bear what it has there.
+}  // namespace
+
+ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording& recording) {
+  const std::vector<std::string> inputs = measured_inputs(setup);
+  ObservedSamples samples{.count = recording.samples,
+                          .inputs = inputs.size(),
+                          .sensors = setup.sensors.size(),
+                          .driven = {},
+                          .measured = {}};
+  if (samples.count < kFewestObserved)
+    throw Error(recording.name, "has " + std::to_string(samples.count) + " samples",
+                std::to_string(kFewestObserved) + " or more");
+  std::vector<const std::vector<double>*> driven;
+  for (const std::string& channel : inputs) driven.push_back(&recording.channel(channel).samples);
+  if (!setup.drive.empty()) driven.push_back(&recording.channel(setup.drive).samples);
+
+  // A late sensor is brought forward.
+  std::vector<std::vector<double>> measured;
+  for (const PlantSensor& sensor : setup.sensors) {
+    const std::vector<double>& shown = recording.channel(sensor.channel).samples;
+    measured.push_back(sensor.delay == 0 ? shown
+                                         : delayed(shown, recording.sample_time, -sensor.delay));
+  }
+  for (std::size_t k = 0; k < samples.count; ++k) {
+    for (const std::vector<double>* channel : driven) samples.driven.push_back((*channel)[k]);
+    if (setup.drive.empty()) samples.driven.push_back(setup.level);
+    for (const std::vector<double>& channel : measured) samples.measured.push_back(channel[k]);
+  }
+  return samples;
+}
+
 std::shared_ptr<const DamperModel> mounted(std::shared_ptr<const DamperModel> damper,
                                            double drive) {
   constexpr double kNothing = 1e-6;  // N
@@ -317,7 +317,15 @@ std::shared_ptr<const DamperModel> mounted(std::shared_ptr<const DamperModel> da
   return damper->with_offset(-rest);
 }
 
-}  // namespace
+void require_plant_drive(const InPlantSetup& setup, const ModelFile& file,
+                         const std::string& model) {
+  if (setup.drive_unit != DriveUnit::None && file.drive_unit != DriveUnit::None &&
+      setup.drive_unit != file.drive_unit)
+    throw Error(model,
+                "takes " + to_string(file.drive_unit) + ", and the plant states " +
+                    to_string(setup.drive_unit),
+                "'voltage' or 'current' of the plant as the damper has it");
+}
 
 ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                       const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
@@ -340,7 +348,7 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
                                      rms_of(recordings.front().channel(sensor.channel).samples));
   std::vector<ObservedSamples> samples;
   for (const PlantRecording& recording : recordings)
-    samples.push_back(samples_of(setup, recording));
+    samples.push_back(observed_samples(setup, recording));
   const NoiseSearch search(setup, recordings, scale, options);
 
   // The filter's step, then what was not stated.

@@ -7,6 +7,8 @@
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/observer_tables.h"
 #include "dashpot/machine/plant_recording.h"
+#include "dashpot/machine/plant_smoother.h"
+#include "dashpot/model_file.h"
 #include "dashpot/monitor.h"
 
 namespace dashpot {
@@ -70,5 +72,16 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
 /// without a noise, or late by more than a tenth of a sample, are refused.
 PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                             InPlantSetup setup, double sample_time, const ObserveOptions& options);
+
+/// Throws Error where the damper is driven by another quantity than the plant states.
+void require_plant_drive(const InPlantSetup& setup, const ModelFile& file,
+                         const std::string& model);
+
+/// A recording as a filter takes it, late sensors brought forward. Throws Error where it is too
+/// short.
+ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording& recording);
+
+/// The damper in equilibrium at rest, where the springs bear what it has there.
+std::shared_ptr<const DamperModel> mounted(std::shared_ptr<const DamperModel> damper, double drive);
 
 }  // namespace dashpot

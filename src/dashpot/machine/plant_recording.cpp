@@ -81,8 +81,14 @@ PlantRecording read_plant_recording(const std::filesystem::path& path,
   if (tables.size() != 1)
     throw Error(path.string(), "holds " + std::to_string(tables.size()) + " tables",
                 "one recording of the plant per file");
-  RawTable& table = tables.front();
-  PlantRecording recording{.name = path.filename().string(), .samples = table.rows()};
+  PlantRecording recording = plant_recording(std::move(tables.front()), wanted, also);
+  recording.name = path.filename().string();
+  return recording;
+}
+
+PlantRecording plant_recording(RawTable table, const std::vector<std::string>& wanted,
+                               const std::vector<std::string>& also) {
+  PlantRecording recording{.name = table.file, .samples = table.rows()};
 
   // Its time base: stated by the format, or by a column of time.
   if (table.sample_time) recording.sample_time = *table.sample_time;

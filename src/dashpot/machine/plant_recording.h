@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dashpot/record.h"
+#include "dashpot/record/readers/table.h"
 
 namespace dashpot {
 
@@ -28,5 +29,9 @@ struct PlantRecording {
 PlantRecording read_plant_recording(const std::filesystem::path& path,
                                     const std::vector<std::string>& wanted,
                                     const std::vector<std::string>& also = {});
+
+/// The same of a table that is at hand.
+PlantRecording plant_recording(RawTable table, const std::vector<std::string>& wanted,
+                               const std::vector<std::string>& also = {});
 
 }  // namespace dashpot

@@ -235,9 +235,9 @@ DrivenPlant PlantResiduals::equations(std::span<const double> x) const {
   return DrivenPlant(make_plant(*setup_->model, values), setup_->strut, inputs_);
 }
 
-std::vector<double> PlantResiduals::first_state(std::span<const double> x, std::size_t place,
-                                                std::size_t coordinates,
-                                                const LawModel& damper) const {
+std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, std::size_t place,
+                                                   std::size_t coordinates,
+                                                   const LawModel& damper) const {
   std::vector<double> state(2 * coordinates + damper.state_size());
   damper.rest({0, 0, cases_->all[place].driving.current.front()},
               std::span(state).subspan(2 * coordinates));
@@ -252,7 +252,7 @@ bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
                          const LawModel& damper, const PlantCase& one, std::size_t place,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
                          Shown& shown) const {
-  std::vector<double> state = first_state(x, place, plant.size(), damper);
+  std::vector<double> state = state_at_first(x, place, plant.size(), damper);
   if (!plant.run(damper, one.driving, samples, sensors, state, shown)) return false;
 
   // What a late sensor shows is older.
@@ -404,6 +404,24 @@ Covariance PlantResiduals::covariance_at(const LeastSquaresReport& solved) const
         (part + 1 < whole.parts.size() ? whole.parts[part + 1] : r.size()) - whole.parts[part]);
   return covariance(solved.part_matrices, independent_variances(r, segments, solved.x.size()),
                     solved.x.size());
+}
+
+PlantResiduals::Shown PlantResiduals::other_sensors(
+    std::span<const double> x, std::size_t recording,
+    const std::vector<PlantSensorPlace>& places) const {
+  std::vector<PlantSensorPlace> all = sensors_;
+  all.insert(all.end(), places.begin(), places.end());
+  const PlantCase& one = cases_->all[recording];
+  Shown shown;
+  if (!run(x, equations(x), damper(x), one, recording, one.training, all, shown)) return {};
+  shown.erase(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(sensors_.size()));
+  for (std::vector<double>& samples : shown) {
+    samples.resize(one.training);
+    samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(one.first));
+    const double mean = mean_of(samples);
+    for (double& value : samples) value -= mean;
+  }
+  return shown;
 }
 
 double PlantResiduals::step_error(std::span<const double> x,

@@ -38,6 +38,8 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 /// delays. All that it is made from must outlive it.
 class PlantResiduals : public InPlantUnknowns {
  public:
+  using Shown = std::vector<std::vector<double>>;  ///< per sensor
+
   /// plant: where the plant's unknowns start, SI; scale: of the damper's motion.
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns& law,
                  const std::vector<double>& plant, const DataScale& scale);
@@ -66,6 +68,13 @@ class PlantResiduals : public InPlantUnknowns {
   std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const override;
   LawModel damper(std::span<const double> x) const;
 
+  /// What sensors at other places would show in a recording, without offset and delay: per place
+  /// the samples that are fitted, without their mean. Empty where it diverges.
+  Shown other_sensors(std::span<const double> x, std::size_t recording,
+                      const std::vector<PlantSensorPlace>& places) const;
+  std::size_t first_state() const { return first_state_; }
+  double scale_of(std::size_t sensor) const { return scale_[sensor]; }
+
   /// What half the step changes at the sensors, rms over rms error; the worst sensor.
   double step_error(std::span<const double> x, const std::vector<PlantRecording>& recordings) const;
   /// Figures and samples of every sensor over whole recordings, in free run.
@@ -73,10 +82,9 @@ class PlantResiduals : public InPlantUnknowns {
                 std::vector<InPlantTrace>& traces) const;
 
  private:
-  using Shown = std::vector<std::vector<double>>;  ///< per sensor
   DrivenPlant equations(std::span<const double> x) const;
-  std::vector<double> first_state(std::span<const double> x, std::size_t place,
-                                  std::size_t coordinates, const LawModel& damper) const;
+  std::vector<double> state_at_first(std::span<const double> x, std::size_t place,
+                                     std::size_t coordinates, const LawModel& damper) const;
   bool run(std::span<const double> x, const DrivenPlant& plant, const LawModel& damper,
            const PlantCase& one, std::size_t place, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, Shown& shown) const;

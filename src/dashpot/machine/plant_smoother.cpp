@@ -48,6 +48,21 @@ ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& sampl
   return run;
 }
 
+Innovations innovations(const PlantObserver& observer, const ObservedSamples& samples) {
+  Innovations told;
+  bool finite = true;
+  run_filter(
+      observer, samples, samples.count,
+      [&](std::size_t, const std::vector<double>& estimate, const std::vector<double>&,
+          const ObservedSample& sample) {
+        told.beyond.insert(told.beyond.end(), sample.innovation.begin(), sample.innovation.end());
+        told.variance.insert(told.variance.end(), sample.variance.begin(), sample.variance.end());
+        finite = std::ranges::all_of(estimate, [](double x) { return std::isfinite(x); });
+        return finite;
+      });
+  return finite ? told : Innovations{};
+}
+
 double misfit(const PlantObserver& observer, const ObservedSamples& samples, std::size_t first,
               std::size_t end) {
   double sum = 0;

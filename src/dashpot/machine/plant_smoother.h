@@ -44,6 +44,14 @@ void smooth(const PlantObserver& observer, ObservedRun& run);
 std::vector<double> smoothed_start(const PlantObserver& observer, const ObservedSamples& samples,
                                    std::size_t count);
 
+/// What every sensor showed beyond what the samples before had led to expect, and the variance of
+/// that, count x sensors each; a variance of 0: the sensor showed no number. Nothing where the
+/// filter diverges.
+struct Innovations {
+  std::vector<double> beyond, variance;
+};
+Innovations innovations(const PlantObserver& observer, const ObservedSamples& samples);
+
 /// -2 log of the likelihood of the sensors' samples from `first` on, but for a constant: what the
 /// uncertainties that fit best make least. Infinite where the filter diverges.
 double misfit(const PlantObserver& observer, const ObservedSamples& samples, std::size_t first,

@@ -88,6 +88,19 @@ PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
   return driving;
 }
 
+/// The levels in one ride: each held for so long, none twice in a row.
+void switch_levels(const VirtualCampaignOptions& options, PlantDriving& driving) {
+  Random random(options.seed + 250);
+  const double step = driving.sample_time / (2 * kStepsOfFiner);
+  const auto held = std::max<std::size_t>(1, static_cast<std::size_t>(options.hold / step));
+  std::size_t level = 0;
+  for (std::size_t k = 0; k < driving.current.size(); ++k) {
+    if (k > 0 && k % held == 0 && options.levels.size() > 1)
+      level = (level + 1 + random.index(options.levels.size() - 1)) % options.levels.size();
+    driving.current[k] = options.levels[level];
+  }
+}
+
 /// A fine signal at each sample, `delay` seconds earlier; before the first one it stood still.
 std::vector<double> sampled(const std::vector<double>& fine, std::size_t samples, double late) {
   std::vector<double> values(samples);
@@ -168,7 +181,7 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
   for (const auto& [name, place] : true_places) places.push_back(place);
 
   std::vector<VirtualRide> rides;
-  for (std::size_t r = 0; r < options.levels.size(); ++r) {
+  for (std::size_t r = 0; r < (options.hold > 0 ? 1 : options.levels.size()); ++r) {
     options.monitor.check();
     const double level = options.levels[r];
     const std::uint64_t seed = options.seed + 1000 * r;
@@ -177,8 +190,9 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
     const std::unique_ptr<DamperModel> mounted = damper.with_offset(-force_at_rest(damper, level));
     const bool is_pushed = setup.inputs.front().place.kind == PlantInput::Force;
     const double usual = is_pushed ? 0.3 * plant.mass.front() : 1;  // N by kg, m/s^2
-    const PlantDriving driving =
+    PlantDriving driving =
         driving_of(setup, plant, options, level, options.push > 0 ? options.push : usual, seed);
+    if (options.hold > 0) switch_levels(options, driving);
     std::vector<double> state(2 * plant.size() + mounted->state_size());
     mounted->rest({0, 0, level}, std::span(state).subspan(2 * plant.size()));
     std::vector<std::vector<double>> shown;
@@ -216,9 +230,12 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
       add_channel(ride.recorded, sensor.channel, unit_of(sensor.place.quantity),
                   with_noise(std::move(values), sensor.noise, noise));
     }
-    if (!setup.drive.empty())
-      add_channel(ride.recorded, setup.drive, to_string(setup.drive_unit),
-                  std::vector<double>(samples, level));
+    if (!setup.drive.empty()) {
+      std::vector<double> drive(samples);
+      for (std::size_t k = 0; k < samples; ++k)
+        drive[k] = driving.current[2 * kStepsOfFiner * kFiner * k];
+      add_channel(ride.recorded, setup.drive, to_string(setup.drive_unit), std::move(drive));
+    }
     for (std::size_t k = 0; k < true_places.size(); ++k)
       add_channel(ride.truth, true_places[k].first, unit_of(true_places[k].second.quantity),
                   sampled(shown[setup.sensors.size() + k], samples, 0));

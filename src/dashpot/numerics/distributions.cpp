@@ -32,6 +32,15 @@ double chi_squared_quantile(double degrees, double p) {
   return quantile(boost::math::chi_squared_distribution<double, InDouble>(degrees), p);
 }
 
+double normal_score(double degrees, double t) {
+  // Of the smaller tail, where the probability has all its digits.
+  const double tail =
+      cdf(boost::math::students_t_distribution<double, InDouble>(degrees), -std::abs(t));
+  constexpr double kFarthest = 38;  // where the tail is no number any more
+  const double score = tail > 0 ? -normal_quantile(tail) : kFarthest;
+  return t < 0 ? -score : score;
+}
+
 double Binomial::quantile(double p) const { return boost::math::quantile(boosts(*this), p); }
 double Binomial::at_most(double count) const { return boost::math::cdf(boosts(*this), count); }
 

@@ -9,6 +9,10 @@ double normal_quantile(double p);
 double students_t_quantile(double degrees, double p);   ///< degrees > 0, of freedom
 double chi_squared_quantile(double degrees, double p);  ///< likewise
 
+/// The normal quantile at the probability that Student's t of so many degrees lies below `t`; to
+/// either side as exact.
+double normal_score(double degrees, double t);
+
 /// How many of `trials` succeed, each with the probability `success`.
 struct Binomial {
   double trials, success;

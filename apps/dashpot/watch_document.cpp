@@ -1,0 +1,318 @@
+#include "watch_document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/escape.h"
+#include "dashpot/base/text.h"
+#include "dashpot/report/quantity.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot::cli {
+namespace {
+
+constexpr double kWide95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
+
+bool is_share(const WatchedQuantity& q) { return q.unit == "1"; }
+
+/// An amount as people see it: a share in percent.
+std::string amount_text(const WatchedQuantity& q, double value, int digits = 3) {
+  return is_share(q) ? format_number(100 * value, digits) : quantity(value, q.unit, digits);
+}
+std::string amount_unit(const WatchedQuantity& q) { return is_share(q) ? "%" : unit_name(q.unit); }
+
+bool is_judged(const Watched& watched, std::size_t day) {
+  return watched.quantities.front().chart.points[day].is_judged;
+}
+
+/// Days that the charts take.
+std::size_t days_that_count(const Watched& watched) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      watched.days, [](const WatchedDay& day) { return day.estimate.converged; }));
+}
+
+std::string remark_of(const Watched& watched, std::size_t day) {
+  std::vector<std::string> remarks;
+  for (const WatchedQuantity& q : watched.quantities)
+    if (q.chart.alarm == day) remarks.push_back("ALARM: " + q.name);
+  if (!watched.days[day].estimate.converged) remarks.emplace_back("does not count: not converged");
+  if (remarks.empty() && !is_judged(watched, day)) remarks.emplace_back("reference");
+  return join(remarks, ", ");
+}
+
+/// On a terminal: the last days, and those with an alarm.
+std::vector<std::size_t> rows_in_brief(const Watched& watched) {
+  constexpr std::size_t kLast = 15;
+  std::vector<std::size_t> rows;
+  for (std::size_t d = 0; d < watched.days.size(); ++d) {
+    const bool is_alarm = std::ranges::any_of(
+        watched.quantities, [&](const WatchedQuantity& q) { return q.chart.alarm == d; });
+    if (is_alarm || d + kLast >= watched.days.size()) rows.push_back(d);
+  }
+  return rows;
+}
+
+DocumentTable day_table(const Watched& watched) {
+  DocumentTable table{.title = "Days", .columns = {{"day", false, 0, true}}, .rows = {}};
+  for (const WatchedQuantity& q : watched.quantities) {
+    table.columns.push_back({q.name + ", " + amount_unit(q), true});
+    table.columns.push_back({"+-", true, 2, false, "95 %, of the day by itself"});
+    table.columns.push_back({"sum", true, 1, false, "of the chart; an alarm above its threshold"});
+  }
+  for (const PlantUnknown& unknown : watched.plant.setup.unknown)
+    table.columns.push_back({unknown.name, true, 3});
+  table.columns.push_back({"remark"});
+  for (std::size_t d = 0; d < watched.days.size(); ++d) {
+    const DayEstimate& day = watched.days[d].estimate;
+    std::vector<std::string> row = {day.name};
+    for (const WatchedQuantity& q : watched.quantities) {
+      row.push_back(amount_text(q, day.wear[q.place]));
+      row.push_back(amount_text(q, kWide95 * day.wear_deviation[q.place], 2));
+      row.push_back(!is_judged(watched, d) ? "" : format_number(q.chart.points[d].sum, 3));
+    }
+    for (const double value : day.plant) row.push_back(format_number(value, 4));
+    row.push_back(remark_of(watched, d));
+    table.warnings.push_back(row.back().starts_with("ALARM"));
+    table.rows.push_back(std::move(row));
+  }
+  table.brief = rows_in_brief(watched);
+  table.note =
+      "Amounts by which the damper differs from its model, with what the day itself leaves open "
+      "(95 %). 'sum' is the chart's: healthy days keep it near 0.";
+  return table;
+}
+
+DocumentTable chart_table(const Watched& watched) {
+  DocumentTable table{.title = "Charts",
+                      .columns = {{"quantity"},
+                                  {"expected", true},
+                                  {"scatter of days", true},
+                                  {"unit"},
+                                  {"sum", true},
+                                  {"alarm above", true},
+                                  {"state"}},
+                      .rows = {}};
+  for (const WatchedQuantity& q : watched.quantities) {
+    const ChartPoint& last = q.chart.points.back();
+    const bool learns = days_that_count(watched) <= watched.options.chart.reference;
+    table.rows.push_back({q.name, amount_text(q, last.expected), amount_text(q, last.scatter, 2),
+                          amount_unit(q), format_number(last.sum, 3),
+                          format_number(q.chart.threshold, 3),
+                          q.chart.alarm ? "alarm at " + watched.days[*q.chart.alarm].estimate.name
+                          : learns      ? "learns"
+                                        : "healthy"});
+    table.warnings.push_back(q.chart.alarm.has_value());
+  }
+  table.note = fmt::format(
+      "Healthy days that are independent and normally distributed give a false alarm once in {} "
+      "days on average, all charts together. Scatter: what is to be expected of the next day, "
+      "learnt from those before.",
+      format_number(watched.options.chart.days));
+  return table;
+}
+
+std::vector<double> day_numbers(const Watched& watched) {
+  std::vector<double> numbers;
+  for (std::size_t d = 0; d < watched.days.size(); ++d)
+    numbers.push_back(static_cast<double>(d + 1));
+  return numbers;
+}
+
+/// A quantity by day, between the bounds in which it was expected.
+FigurePanel value_panel(const Watched& watched, const WatchedQuantity& q) {
+  const double factor = is_share(q) ? 100 : 1;
+  const std::string label = q.name + (is_share(q) ? ", %" : "");
+  FigurePanel panel{.title = label,
+                    .x_label = "day",
+                    .y_label = label,
+                    .series = {},
+                    .reads_along_x = true,
+                    .y_unit = is_share(q) ? "" : q.unit};
+  FigureSeries dots{.label = "estimated",
+                    .colour = "measured",
+                    .x = day_numbers(watched),
+                    .mark = FigureSeries::Mark::Dots,
+                    .width = 2.5};
+  FigureSeries lower{.label = "expected, 95 %",
+                     .colour = "modelled",
+                     .mark = FigureSeries::Mark::Dashes,
+                     .is_read = false};
+  FigureSeries upper = lower;
+  for (std::size_t d = 0; d < watched.days.size(); ++d) {
+    const ChartPoint& point = q.chart.points[d];
+    dots.y.push_back(factor * watched.days[d].estimate.wear[q.place]);
+    dots.names.push_back(watched.days[d].estimate.name);
+    if (!(point.scatter > 0)) continue;
+    for (FigureSeries* edge : {&lower, &upper}) edge->x.push_back(dots.x[d]);
+    lower.y.push_back(factor * (point.expected - kWide95 * point.scatter));
+    upper.y.push_back(factor * (point.expected + kWide95 * point.scatter));
+  }
+  panel.series = {std::move(lower), std::move(upper), std::move(dots)};
+  return panel;
+}
+
+/// The chart's sum by day, and its threshold.
+FigurePanel sum_panel(const Watched& watched, const WatchedQuantity& q) {
+  FigurePanel panel{.title = "sum of " + q.name,
+                    .x_label = "day",
+                    .y_label = "sum",
+                    .series = {},
+                    .reads_along_x = true};
+  FigureSeries sum{.label = "sum", .colour = "measured", .x = day_numbers(watched)};
+  for (const ChartPoint& point : q.chart.points) sum.y.push_back(point.sum);
+  FigureSeries threshold{.label = "alarm above",
+                         .colour = "series-4",
+                         .x = {sum.x.front(), sum.x.back()},
+                         .y = {q.chart.threshold, q.chart.threshold},
+                         .mark = FigureSeries::Mark::Dashes};
+  panel.series = {std::move(sum), std::move(threshold)};
+  return panel;
+}
+
+DocumentFigure chart_figure(const Watched& watched) {
+  DocumentFigure figure{
+      .name = "charts",
+      .title = "Charts",
+      .caption =
+          "By day: the amount, and between which bounds the days before had led to expect "
+          "it; the chart's sum and its threshold.",
+      .panels = {},
+      .columns = 2};
+  for (const WatchedQuantity& q : watched.quantities) {
+    figure.panels.push_back(value_panel(watched, q));
+    figure.panels.push_back(sum_panel(watched, q));
+  }
+  return figure;
+}
+
+Value day_json(const Watched& watched, std::size_t d) {
+  const WatchedDay& day = watched.days[d];
+  Value amounts = Value::object(), plant = Value::object(), known = Value::object();
+  for (const WatchedQuantity& q : watched.quantities) {
+    const ChartPoint& point = q.chart.points[d];
+    amounts.add(q.name, Value::object({{"value", day.estimate.wear[q.place]},
+                                       {"deviation", day.estimate.wear_deviation[q.place]},
+                                       {"expected", point.expected},
+                                       {"scatter", point.scatter},
+                                       {"score", point.score},
+                                       {"sum", point.sum}}));
+  }
+  for (std::size_t k = 0; k < day.estimate.plant.size(); ++k)
+    plant.add(watched.plant.setup.unknown[k].name, day.estimate.plant[k]);
+  for (std::size_t k = 0; k < day.known.size(); ++k)
+    known.add(watched.options.known[k], day.known[k]);
+  return Value::object({{"name", day.estimate.name},
+                        {"amounts", std::move(amounts)},
+                        {"plant", std::move(plant)},
+                        {"excitation", day.estimate.excitation},
+                        {"known", std::move(known)},
+                        {"converged", day.estimate.converged},
+                        {"remark", remark_of(watched, d)}});
+}
+
+Value watch_json(const Watched& watched) {
+  Value charts = Value::array(), days = Value::array();
+  for (const WatchedQuantity& q : watched.quantities) {
+    Value chart =
+        Value::object({{"quantity", q.name}, {"unit", q.unit}, {"threshold", q.chart.threshold}});
+    if (q.chart.alarm) {
+      chart.add("alarm", watched.days[*q.chart.alarm].estimate.name);
+      chart.add("since", watched.days[q.chart.since].estimate.name);
+      chart.add("fall", q.chart.fall);
+      chart.add("fall_deviation", q.chart.fall_deviation);
+    }
+    charts.push_back(std::move(chart));
+  }
+  for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
+  return Value::object({{"plant", watched.plant.setup.model->name},
+                        {"damper", watched.plant.damper->name()},
+                        {"alarm", watched.first_alarm() != nullptr},
+                        {"days_between_false_alarms", watched.options.chart.days},
+                        {"reference_days", watched.options.chart.reference},
+                        {"found", found_of(watched.plant)},
+                        {"charts", std::move(charts)},
+                        {"days", std::move(days)}});
+}
+
+}  // namespace
+
+const WatchedQuantity* Watched::first_alarm() const {
+  const WatchedQuantity* first = nullptr;
+  for (const WatchedQuantity& q : quantities)
+    if (q.chart.alarm && (!first || *q.chart.alarm < *first->chart.alarm)) first = &q;
+  return first;
+}
+
+std::string Watched::alarm_text(const WatchedQuantity& q) const {
+  return fmt::format("{} has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
+                     q.meaning, amount_text(q, q.chart.fall),
+                     amount_text(q, kWide95 * q.chart.fall_deviation, 2), amount_unit(q),
+                     days[q.chart.since].estimate.name, days[*q.chart.alarm].estimate.name);
+}
+
+Document watch_document(const Watched& watched) {
+  Document document{.title = "A damper watched from day to day",
+                    .subtitle = std::string(watched.plant.setup.model->title),
+                    .verdict = {},
+                    .sections = {},
+                    .kind = "watch"};
+  const WatchedQuantity* alarm = watched.first_alarm();
+  const std::size_t count = days_that_count(watched), reference = watched.options.chart.reference;
+  if (alarm)
+    document.verdict = "ALARM: " + watched.alarm_text(*alarm) + '.';
+  else if (count <= reference)
+    document.verdict =
+        fmt::format("{} of {} reference days are there: nothing is judged yet.", count, reference);
+  else
+    document.verdict = fmt::format("No alarm on {} behind {} reference days.",
+                                   counted(count - reference, "day"), reference);
+  document.verdict += fmt::format(" False alarms: one in {} healthy days on average, as stated.",
+                                  format_number(watched.options.chart.days));
+
+  if (const std::size_t others = watched.days.size() - count; others > 0)
+    document.verdict +=
+        fmt::format(" {} not count: no wear was found under which the sensors are likely.",
+                    others == 1 ? "One day does" : std::to_string(others) + " days do");
+
+  DocumentSection section{.name = "watch", .title = "Days and charts", .paragraphs = {}};
+  for (const WatchedQuantity& q : watched.quantities)
+    if (q.chart.alarm && &q != alarm)
+      section.remarks.push_back("Also: " + watched.alarm_text(q) + ".");
+  section.tables = {day_table(watched), chart_table(watched)};
+  section.figures = {chart_figure(watched)};
+  document.sections.push_back(std::move(section));
+  document.data = watch_json(watched);
+  return document;
+}
+
+std::string watch_csv(const Watched& watched) {
+  // Titles, then a row per day.
+  std::string text = "day";
+  for (const WatchedQuantity& q : watched.quantities) {
+    const std::string unit = is_share(q) ? "" : " [" + q.unit + "]";
+    text += ',' + q.name + unit + ',' + q.name + "_deviation" + unit + ',' + q.name + "_expected" +
+            unit + ',' + q.name + "_scatter" + unit + ',' + q.name + "_score," + q.name + "_sum";
+  }
+  for (const PlantUnknown& unknown : watched.plant.setup.unknown) text += ',' + unknown.name;
+  for (const std::string& name : watched.options.known) text += ',' + name;
+  text += ",remark\n";
+  for (std::size_t d = 0; d < watched.days.size(); ++d) {
+    const WatchedDay& day = watched.days[d];
+    text += csv_field(day.estimate.name);
+    const auto add = [&](double value) { text += ',' + format_number(value, 9); };
+    for (const WatchedQuantity& q : watched.quantities) {
+      const ChartPoint& point = q.chart.points[d];
+      for (const double value : {day.estimate.wear[q.place], day.estimate.wear_deviation[q.place],
+                                 point.expected, point.scatter, point.score, point.sum})
+        add(value);
+    }
+    for (const double value : day.estimate.plant) add(value);
+    for (const double value : day.known) add(value);
+    text += ',' + csv_field(remark_of(watched, d)) + '\n';
+  }
+  return text;
+}
+
+}  // namespace dashpot::cli

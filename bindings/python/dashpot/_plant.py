@@ -1,0 +1,161 @@
+"""Dampers inside a plant: identified there, and observed."""
+
+import json
+import os
+from typing import Iterable, List, Mapping, Optional, Tuple, Union
+
+from . import _core, _frames
+from ._identify import Progress, Words, words
+
+Plant = Union[str, "os.PathLike[str]", Mapping]
+
+
+def _rides(given, sample_time: float) -> _core._Rides:
+    """Paths, tables of arrays, or DataFrames: one or several."""
+    one = isinstance(given, (str, os.PathLike, Mapping)) or _frames.is_frame(given)
+    rides = _core._Rides()
+    for ride in [given] if one else given:
+        if isinstance(ride, (str, os.PathLike)):
+            rides.load(os.fspath(ride))
+            continue
+        names = ride.columns if _frames.is_frame(ride) else ride
+        rides.add({str(name): ride[name] for name in names}, sample_time)
+    return rides
+
+
+def _plant(given: Plant) -> str:
+    """A file, words, or what such a file holds."""
+    return json.dumps(given) if isinstance(given, Mapping) else os.fspath(given)
+
+
+class PlantFit:
+    """A damper that was identified in its plant.
+
+    model: the DamperModel; plant: the plant as it was found, which observe() takes; report: all figures, as
+    `dashpot identify --in --json` prints them of a law.
+    """
+
+    def __init__(self, model: _core.DamperModel, report: dict):
+        self.model = model
+        self.plant = report.pop("found")
+        self.report = report
+
+    @property
+    def parameters(self) -> dict:
+        """Numbers of plant and damper by name: value, unit, and low and high of the 95 % interval, SI."""
+        return {number["name"]: number for number in self.report["plant"] + self.report["damper"]}
+
+    @property
+    def advice(self) -> dict:
+        """What would let the fit tell more: "sensors", "recordings" (the best first), "profiles"."""
+        return self.report["advice"]
+
+    def __repr__(self) -> str:
+        return f"<dashpot.PlantFit of {self.model.name}>"
+
+
+def identify_in_plant(
+    rides,
+    plant: Plant,
+    model: str,
+    *,
+    sample_time: float = 0,
+    form: Words = (),
+    fix: Words = (),
+    free: Words = (),
+    bounds: Words = (),
+    starts: int = 12,
+    seed: int = 1,
+    threads: int = 0,
+    grade: str = "car",
+    profile: Words = (),
+    progress: Progress = None,
+) -> PlantFit:
+    """What `dashpot identify --in` does, with the same figures: a law as the unknown part of a plant.
+
+    rides: a path, a dict of arrays or a DataFrame whose names hold channel and unit ("az_body [m/s^2]"; without a
+    unit SI), or several of these. plant: a file, words, or a dict of what such a file holds (docs/in-plant.md).
+    model: a law. sample_time: s, where no column is time. form, fix, free, bounds: as the command line has them.
+    grade: of the sensors that are tried beside those that are there. profile: numbers whose misfit is followed.
+
+    Raises Error at what cannot be used or told, NotUsable where the plant diverges wherever the fit begins.
+    """
+    options = {
+        "models": [model],
+        "form": words(form),
+        "fix": words(fix),
+        "free": words(free),
+        "bounds": words(bounds),
+        "starts": starts,
+        "seed": seed,
+        "threads": threads,
+        "grade": grade,
+        "profile": words(profile),
+        "command": "dashpot.identify_in_plant (Python)",
+    }
+    found, report = _core.identify_in_plant(
+        _rides(rides, sample_time), _plant(plant), json.dumps(options), progress
+    )
+    return PlantFit(found, json.loads(report))
+
+
+class Observation:
+    """What no sensor showed: a table per ride, and the report of `dashpot observe --json`."""
+
+    def __init__(self, core: _core._Recordings, report: dict):
+        self.report = report
+        self.rides: List[dict] = [core.record(place) for place in range(len(core))]
+
+    def __len__(self) -> int:
+        return len(self.rides)
+
+    def __getitem__(self, name: str):
+        """(value, half width of its band) of the first ride, read-only arrays: observation["damper_force"]."""
+        return self.of(name)
+
+    def of(self, name: str, ride: int = 0) -> Tuple:
+        """The same of any ride."""
+        columns = {full.split(" [")[0]: samples for full, samples in self.rides[ride]["columns"].items()}
+        if name not in columns or name + "_half_band" not in columns:
+            known = [known for known in columns if known + "_half_band" in columns]
+            raise KeyError(f"{name!r}; known: {', '.join(known)}")
+        return columns[name], columns[name + "_half_band"]
+
+    def frame(self, ride: int = 0):
+        """A ride as a DataFrame (pandas), its columns named with their units."""
+        import pandas
+
+        return pandas.DataFrame(self.rides[ride]["columns"], copy=False)
+
+
+def observe(
+    model: _core.DamperModel,
+    rides,
+    plant: Plant,
+    *,
+    sample_time: float = 0,
+    causal: bool = False,
+    force_error: Optional[Iterable[Tuple[float, float]]] = None,
+    level: float = 0.9,
+    steps: int = 0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Observation:
+    """What `dashpot observe` does: a damper's force, its plant's motion and the road, with bands.
+
+    rides, plant, sample_time: as of identify_in_plant(); of the plant all numbers must be known (PlantFit.plant).
+    causal: each instant from its past alone. force_error: errors of the model's force as (N, s in which it is
+    forgotten); None: found. level: share of the time that bands are to hold. steps: of the filter per sample, 0: as
+    many as its error asks for.
+
+    Raises Error at what cannot be used.
+    """
+    options = {
+        "causal": causal,
+        "force_error": [list(one) for one in force_error or ()],
+        "level": level,
+        "steps": steps,
+        "threads": threads,
+    }
+    core, report = _core.observe(model, _rides(rides, sample_time), _plant(plant), json.dumps(options), progress)
+    return Observation(core, json.loads(report))

@@ -1,0 +1,164 @@
+#include "dashpot/base/date.h"
+#include "dashpot/base/escape.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/machine/in_plant_result.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/record/readers/reader.h"
+#include "dashpot/record/source_files.h"
+#include "handles.h"
+#include "recordings.h"
+#include "status.h"
+#include "words.h"
+#include "work.h"
+
+using namespace dashpot;
+using namespace dashpot::capi;
+
+namespace {
+
+/// A plant by the text of its file, by the file, or by words.
+InPlantSetup setup_of(const char* plant) {
+  require(plant, "plant");
+  const std::string text = plant;
+  const bool is_text = text.find_first_of("{\n") != std::string::npos;
+  return is_text ? parse_in_plant_setup(text, "plant") : read_in_plant_setup(text);
+}
+
+std::vector<PlantRecording> recordings_of(const dashpot_rides* rides, const InPlantSetup& setup) {
+  require(rides, "rides");
+  if (rides->tables.empty()) throw Error("rides", "there are none", "add one at least");
+  std::vector<PlantRecording> recordings;
+  for (const RawTable& table : rides->tables)
+    recordings.push_back(plant_recording(table, setup.channels()));
+  return recordings;
+}
+
+void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWords& words,
+                  const dashpot_monitor* monitor, dashpot_model** model, char** report) {
+  const InPlantSetup setup = setup_of(plant);
+  const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
+  const std::vector<std::string>& models = words.fit.words.models;
+  const Law& law = find_law(models.front(), "options, models");
+  find_sensor_grade(words.grade, "options, grade");
+  const IdentifyOptions fit = identify_options(words.fit.words, models, "options, ");
+  InPlantOptions options{.choices = fit.choices,
+                         .starts = fit.starts,
+                         .seed = fit.seed,
+                         .threads = fit.threads,
+                         .grade = words.grade,
+                         .profiles = words.profiles};
+
+  // The fit runs beside the caller's thread, which may cancel it.
+  InPlantReport found;
+  run_watched(monitor, [&](const Monitor& watched) {
+    options.monitor = watched;
+    found = identify_in_plant(law, setup, recordings, options);
+  });
+
+  // The report is written before a failed fit is refused, since it says why.
+  if (report) {
+    Value told = to_json(found, models.front());
+    if (found.model) told.add("found", to_json(as_found(setup, found)));
+    *report = copy_text(format_json(presentable(told)));
+  }
+  if (!found.model) throw NotUsable(models.front(), found.message);
+  ModelFile file = found_damper(found, setup, recordings.front().sample_time);
+  file.provenance.created = date_now();
+  file.provenance.command = words.fit.command;
+  file.provenance.dataset = "identified in a plant: " + std::string(setup.model->name);
+  for (const PlantRecording& recording : recordings)
+    file.provenance.training_records.push_back(recording.name);
+  *model = new dashpot_model(std::move(file));
+}
+
+void observe_rides(const dashpot_model& model, const dashpot_rides* rides, const char* plant,
+                   ObserveOptions options, const dashpot_monitor* monitor,
+                   dashpot_recordings** estimates, char** report) {
+  const InPlantSetup setup = setup_of(plant);
+  const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
+  require_plant_drive(setup, model.file, model.name);
+  const std::shared_ptr<const DamperModel> damper = model.damper->with_offset(0);
+  ObserveReport observed;
+  run_watched(monitor, [&](const Monitor& watched) {
+    options.monitor = watched;
+    observed = observe(damper, model.file.domain, setup, recordings, options);
+  });
+
+  auto made = std::make_unique<dashpot_recordings>();
+  made->dataset.name = "observed";
+  made->dataset.drive_unit = setup.drive_unit;
+  for (const ObservedRecording& one : observed.recordings)
+    made->dataset.records.push_back(estimates_of(one));
+  if (report) *report = copy_text(format_json(presentable(to_json(observed, setup))));
+  *estimates = made.release();
+}
+
+}  // namespace
+
+dashpot_status dashpot_rides_new(dashpot_rides** rides) {
+  return guarded([&] {
+    require(rides, "rides");
+    *rides = nullptr;
+    *rides = new dashpot_rides;
+  });
+}
+
+dashpot_status dashpot_rides_load(dashpot_rides* rides, const char* path) {
+  return guarded([&] {
+    require(rides, "rides");
+    require(path, "path");
+    std::vector<RawTable> tables;
+    for (const SourcePath& file : list_files({path})) {
+      std::vector<RawTable> read = read_tables(file.path);
+      if (read.size() != 1)
+        throw Error(file.path.string(), "holds " + std::to_string(read.size()) + " tables",
+                    "one recording of the plant per file");
+      read.front().file = file.path.filename().string();
+      tables.push_back(std::move(read.front()));
+    }
+    if (tables.empty()) throw Error(path, "holds no file", "a file or a folder of recordings");
+    std::ranges::move(tables, std::back_inserter(rides->tables));
+  });
+}
+
+dashpot_status dashpot_rides_add(dashpot_rides* rides, const dashpot_table* table) {
+  return guarded([&] {
+    require(rides, "rides");
+    require(table, "table");
+    require(table->columns, "columns");
+    if (table->conditions)
+      throw Error("conditions", "mean nothing to a plant", "a null pointer in their place");
+    const std::string name =
+        table->name ? table->name : "ride " + std::to_string(rides->tables.size() + 1);
+    rides->tables.push_back(copy_table(*table, name));
+  });
+}
+
+size_t dashpot_rides_count(const dashpot_rides* rides) { return rides ? rides->tables.size() : 0; }
+
+void dashpot_rides_free(dashpot_rides** rides) { give_back(rides); }
+
+dashpot_status dashpot_identify_in_plant(const dashpot_rides* rides, const char* plant,
+                                         const char* options, const dashpot_monitor* monitor,
+                                         dashpot_model** model, char** report) {
+  return guarded([&] {
+    if (report) *report = nullptr;
+    require(model, "model");
+    *model = nullptr;
+    identify_one(rides, plant, read_in_plant_options(options), monitor, model, report);
+  });
+}
+
+dashpot_status dashpot_observe(const dashpot_model* model, const dashpot_rides* rides,
+                               const char* plant, const char* options,
+                               const dashpot_monitor* monitor, dashpot_recordings** estimates,
+                               char** report) {
+  return guarded([&] {
+    if (report) *report = nullptr;
+    require(estimates, "estimates");
+    *estimates = nullptr;
+    require(model, "model");
+    observe_rides(*model, rides, plant, read_observe_options(options), monitor, estimates, report);
+  });
+}

@@ -1,0 +1,338 @@
+#include "dashpot/machine/day_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/suspension/ground/road_profile.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kDaySettles = 1;          // s, in which the filter settles
+constexpr double kBlock = 1;               // s, of which what is told counts as one
+constexpr std::size_t kTellStart = 500;    // samples that tell where a recording begins
+constexpr double kPlantShare = 0.02;       // of a number of the plant: its size as an unknown
+constexpr double kRoughnessFactor = 1.05;  // likewise
+constexpr double kFlat = 4;  // of the misfit: where no step promises more, the search has ended
+
+/// A day's recording as a function of the unknowns: amounts of wear, numbers of the plant beside
+/// where they start, the logarithm of the roughness over its start; each in steps of its size.
+class DayProblem {
+ public:
+  DayProblem(const WatchedPlant& watched, const PlantRecording& recording);
+
+  std::size_t size() const { return size_; }
+  std::size_t block() const { return block_; }
+  std::size_t settled() const { return settled_; }
+  Innovations at(const std::vector<double>& x) const { return innovations(observer(x), samples_); }
+  /// The innovations' misfit, -2 log of their likelihood but for a constant; infinite where the
+  /// filter diverges.
+  double misfit_of(const Innovations& told) const;
+  /// What the unknowns stand for.
+  void describe(const std::vector<double>& x, const std::vector<double>& deviations,
+                DayEstimate& day) const;
+  /// The unknown that is the road's roughness.
+  std::optional<std::size_t> road() const {
+    return finds_road_ ? std::optional(size() - 1) : std::nullopt;
+  }
+  /// Mean of what that sensor shows, with its standard deviation.
+  std::pair<double, double> level_of(const std::string& channel) const;
+
+ private:
+  PlantObserver observer(const std::vector<double>& x) const;
+  double plant_value(std::size_t k, const std::vector<double>& x) const;
+  double roughness(const std::vector<double>& x) const;
+  double excitation(const std::vector<double>& x) const;
+
+  const WatchedPlant* watched_;
+  const PlantRecording* recording_;
+  ObservedSamples samples_;
+  ObserverScale scale_;
+  std::size_t size_ = 0;       ///< unknowns
+  std::vector<double> plant_;  ///< where unknown numbers of the plant start
+  bool finds_road_ = false;
+  std::size_t block_ = 1, settled_ = 0;
+};
+
+DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& recording)
+    : watched_(&watched),
+      recording_(&recording),
+      samples_(observed_samples(watched.setup, recording)),
+      scale_(observer_scale(*watched.damper, watched.domain)) {
+  const InPlantSetup& setup = watched.setup;
+  for (const PlantUnknown& unknown : setup.unknown) plant_.push_back(*unknown.about);
+  for (const PlantInputChannel& input : setup.inputs)
+    finds_road_ |= input.road && input.road->roughness == 0;
+  size_ = watched.wears.size() + plant_.size() + (finds_road_ ? 1 : 0);
+  block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kBlock / recording.sample_time));
+  settled_ =
+      std::max(static_cast<std::size_t>(kDaySettles / recording.sample_time), samples_.count / 20);
+
+  // Means are no motion: a load or a zero moves them, and `level` tells of it.
+  const std::size_t sensors = samples_.sensors;
+  for (std::size_t s = 0; s < sensors; ++s) {
+    const double mean = level_of(setup.sensors[s].channel).first;
+    for (std::size_t k = 0; k < samples_.count; ++k) samples_.measured[k * sensors + s] -= mean;
+    scale_.offset.push_back(std::max(setup.sensors[s].zero, watched.noise.sensors[s]));
+  }
+  const std::vector<double> nothing(size(), 0.0);
+  std::vector<double> about = smoothed_start(observer(nothing), samples_, kTellStart);
+  if (std::ranges::all_of(about, [](double x) { return std::isfinite(x); }))
+    samples_.about = std::move(about);
+}
+
+double DayProblem::plant_value(std::size_t k, const std::vector<double>& x) const {
+  const PlantUnknown& unknown = watched_->setup.unknown[k];
+  const double share = kPlantShare * x[watched_->wears.size() + k];
+  return std::clamp(plant_[k] * (1 + share), unknown.lower, unknown.upper);
+}
+
+double DayProblem::roughness(const std::vector<double>& x) const {
+  return watched_->noise.roughness * (finds_road_ ? std::pow(kRoughnessFactor, x.back()) : 1);
+}
+
+double DayProblem::excitation(const std::vector<double>& x) const {
+  const std::vector<std::string> inputs = measured_inputs(watched_->setup);
+  if (inputs.empty()) return roughness(x);
+  double square = 0;
+  for (const double value : recording_->channel(inputs.front()).samples) square += value * value;
+  return std::sqrt(square / static_cast<double>(samples_.count));
+}
+
+PlantObserver DayProblem::observer(const std::vector<double>& x) const {
+  InPlantSetup setup = watched_->setup;
+  setup.unknown.clear();
+  for (std::size_t k = 0; k < plant_.size(); ++k)
+    setup.known.emplace_back(watched_->setup.unknown[k].name, plant_value(k, x));
+  ObserverNoise noise = watched_->noise;
+  noise.roughness = roughness(x);
+  std::vector<WornDamper::Amount> amounts;
+  for (std::size_t k = 0; k < watched_->wears.size(); ++k)
+    amounts.push_back({watched_->wears[k], watched_->wears[k]->usual * x[k]});
+  const auto damper = std::make_shared<WornDamper>(watched_->damper, std::move(amounts));
+  return {observer_tables(setup, *damper, noise, scale_, recording_->sample_time, watched_->steps),
+          damper};
+}
+
+double DayProblem::misfit_of(const Innovations& told) const {
+  if (told.beyond.empty()) return INFINITY;
+  double sum = 0;
+  for (std::size_t k = settled_ * samples_.sensors; k < told.beyond.size(); ++k)
+    if (told.variance[k] > 0)
+      sum += std::log(told.variance[k]) + told.beyond[k] * told.beyond[k] / told.variance[k];
+  return std::isfinite(sum) ? sum : static_cast<double>(INFINITY);
+}
+
+void DayProblem::describe(const std::vector<double>& x, const std::vector<double>& deviations,
+                          DayEstimate& day) const {
+  const std::size_t wears = watched_->wears.size();
+  for (std::size_t k = 0; k < wears; ++k) {
+    day.wear.push_back(watched_->wears[k]->usual * x[k]);
+    day.wear_deviation.push_back(watched_->wears[k]->usual * deviations[k]);
+  }
+  for (std::size_t k = 0; k < plant_.size(); ++k) {
+    day.plant.push_back(plant_value(k, x));
+    day.plant_deviation.push_back(kPlantShare * plant_[k] * deviations[wears + k]);
+  }
+  day.excitation = excitation(x);
+  if (watched_->level.empty()) return;
+  const auto [mean, deviation] = level_of(watched_->level);
+  day.wear.push_back(mean);
+  day.wear_deviation.push_back(deviation);
+}
+
+std::pair<double, double> DayProblem::level_of(const std::string& channel) const {
+  const std::vector<double>& shown = recording_->channel(channel).samples;
+  const std::size_t blocks = std::max<std::size_t>(2, shown.size() / block_),
+                    length = shown.size() / blocks;
+  const double mean =
+      std::accumulate(shown.begin(), shown.end(), 0.0) / static_cast<double>(shown.size());
+  double square = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const auto first = shown.begin() + static_cast<std::ptrdiff_t>(b * length);
+    const double own = std::accumulate(first, first + static_cast<std::ptrdiff_t>(length), 0.0) /
+                       static_cast<double>(length);
+    square += (own - mean) * (own - mean);
+  }
+  const auto count = static_cast<double>(blocks);
+  return {mean, std::sqrt(square / (count * (count - 1)))};
+}
+
+/// Slope and expected curvature of half the misfit, and what each block gives of the slope.
+struct Scores {
+  std::vector<double> information, slope;
+  std::vector<std::vector<double>> blocks;
+};
+
+/// By forward differences of the innovations and of their variances, so long for each unknown.
+std::optional<Scores> scores_at(const DayProblem& problem, const std::vector<double>& x,
+                                const std::vector<double>& lengths, const Innovations& told,
+                                std::size_t sensors) {
+  const std::size_t n = problem.size();
+  std::vector<Innovations> beside;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> moved = x;
+    moved[k] += lengths[k];
+    beside.push_back(problem.at(moved));
+    if (beside.back().beyond.empty()) return std::nullopt;
+  }
+
+  Scores scores{std::vector<double>(n * n), std::vector<double>(n), {}};
+  std::vector<double> by(n), by_variance(n);
+  for (std::size_t at = problem.settled() * sensors; at < told.beyond.size(); ++at) {
+    const double variance = told.variance[at], beyond = told.beyond[at];
+    if (!(variance > 0)) continue;
+    const std::size_t block = (at / sensors - problem.settled()) / problem.block();
+    if (block >= scores.blocks.size()) scores.blocks.emplace_back(n, 0.0);
+    for (std::size_t k = 0; k < n; ++k) {
+      by[k] = (beside[k].beyond[at] - beyond) / (lengths[k] * std::sqrt(variance));
+      by_variance[k] = (beside[k].variance[at] / variance - 1) / lengths[k];
+      const double slope = by[k] * beyond / std::sqrt(variance) +
+                           0.5 * by_variance[k] * (1 - beyond * beyond / variance);
+      scores.slope[k] += slope;
+      scores.blocks.back()[k] += slope;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        scores.information[i * n + k] += by[i] * by[k] + 0.5 * by_variance[i] * by_variance[k];
+  }
+  return scores;
+}
+
+/// Standard deviations by what the blocks say of the slope, which the model's errors scatter more
+/// than their information tells.
+std::vector<double> deviations_of(const Scores& scores) {
+  const std::size_t n = scores.slope.size();
+  const auto blocks = static_cast<double>(scores.blocks.size());
+  const std::vector<double> inverted = invert_symmetric(scores.information, n).inverse;
+  std::vector<double> variance(n);
+  for (const std::vector<double>& block : scores.blocks)
+    for (std::size_t i = 0; i < n; ++i) {
+      double own = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        own += inverted[i * n + k] * (block[k] - scores.slope[k] / blocks);
+      variance[i] += own * own * blocks / std::max(blocks - 1, 1.0);
+    }
+  for (double& one : variance) one = std::sqrt(one);
+  return variance;
+}
+
+/// The search for the unknowns of a day. The misfit is rugged where the filter's tangents change,
+/// so that differences are as long as the day leaves an unknown open, and short ones are tried
+/// where these lead nowhere.
+class DaySearch {
+ public:
+  DaySearch(const DayProblem& problem, std::size_t sensors)
+      : problem_(&problem), sensors_(sensors), x_(problem.size()), lengths_(x_.size(), 1.0) {}
+
+  /// Where all is as it is stated, the road as rough as is likely then. False where that diverges.
+  bool begin() {
+    if (!move_to(x_)) return false;
+    const std::optional<std::size_t> road = problem_->road();
+    for (const double factor : {4.0, 2.0, 1.5})
+      for (const double side : {-1.0, 1.0})
+        while (road && move_by(*road, side * std::log(factor) / std::log(kRoughnessFactor))) {
+        }
+    return true;
+  }
+  /// Steps of Newton's method by the expected curvature; how many.
+  int run() {
+    constexpr int kIterations = 15;
+    constexpr double kNear = 0.01, kFine = 0.05;
+    int iterations = 0;
+    for (; iterations < kIterations; ++iterations) {
+      scores_ = scores_at(*problem_, x_, lengths_, told_, sensors_);
+      if (!scores_) return iterations;
+      gain_ = step_by(*scores_);
+      if (gain_ < kNear) break;
+      if (moves_along()) continue;
+
+      // Short differences, and the same scores as before for what the day leaves open.
+      std::vector<double> fine = lengths_;
+      for (double& length : fine) length *= kFine;
+      const auto finer = scores_at(*problem_, x_, fine, told_, sensors_);
+      if (!finer) break;
+      const double before = gain_;
+      gain_ = step_by(*finer);
+      if (gain_ < kNear) break;
+      if (moves_along()) continue;
+      gain_ = std::min(gain_, before);
+      break;
+    }
+    return iterations;
+  }
+
+  const std::vector<double>& x() const { return x_; }
+  const Scores& scores() const { return *scores_; }
+  /// Of the misfit, by a further step; infinite where the search went astray.
+  double gain() const { return scores_ ? gain_ : static_cast<double>(INFINITY); }
+
+ private:
+  bool move_to(const std::vector<double>& x) {
+    Innovations there = problem_->at(x);
+    const double misfit = problem_->misfit_of(there);
+    if (!(misfit < misfit_)) return false;
+    x_ = x;
+    misfit_ = misfit;
+    told_ = std::move(there);
+    return true;
+  }
+  bool move_by(std::size_t unknown, double length) {
+    std::vector<double> moved = x_;
+    moved[unknown] += length;
+    return move_to(moved);
+  }
+  /// Sets step and lengths; what the step would gain.
+  double step_by(const Scores& scores) {
+    constexpr double kShortest = 0.2;
+    const std::size_t n = x_.size();
+    const std::vector<double> inverted = invert_symmetric(scores.information, n).inverse;
+    step_.assign(n, 0.0);
+    double gain = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      lengths_[i] = std::clamp(std::sqrt(std::max(inverted[i * n + i], 0.0)), kShortest, 1.0);
+      for (std::size_t k = 0; k < n; ++k) step_[i] -= inverted[i * n + k] * scores.slope[k];
+      gain -= step_[i] * scores.slope[i];
+    }
+    return gain;
+  }
+  /// The step, half of it, and half again, until the misfit falls.
+  bool moves_along() {
+    constexpr int kHalvings = 4;
+    for (int half = 0; half <= kHalvings; ++half) {
+      std::vector<double> moved = x_;
+      for (std::size_t k = 0; k < x_.size(); ++k) moved[k] += std::ldexp(step_[k], -half);
+      if (move_to(moved)) return true;
+    }
+    return false;
+  }
+
+  const DayProblem* problem_;
+  std::size_t sensors_;
+  std::vector<double> x_, lengths_, step_;
+  Innovations told_;
+  double misfit_ = INFINITY, gain_ = INFINITY;
+  std::optional<Scores> scores_;
+};
+
+}  // namespace
+
+DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording) {
+  const DayProblem problem(watched, recording);
+  DaySearch search(problem, watched.setup.sensors.size());
+  if (!search.begin())
+    throw Error(recording.name, "the filter diverges",
+                "a damper and a plant that fit the recording");
+  DayEstimate day{.name = recording.name};
+  day.iterations = search.run();
+  day.converged = search.gain() < kFlat;
+  problem.describe(search.x(), deviations_of(search.scores()), day);
+  return day;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,150 @@
+#include "dashpot/machine/in_plant_result.h"
+
+#include <numeric>
+
+#include "dashpot/base/any_number.h"
+
+namespace dashpot {
+namespace {
+
+Value value_of(const FittedParameter& p) {
+  return Value::object({{"name", p.name},
+                        {"unit", p.unit},
+                        {"value", p.value},
+                        {"low", p.low},
+                        {"high", p.high},
+                        {"fixed", p.fixed},
+                        {"at_bound", p.at_bound},
+                        {"weak", p.weak}});
+}
+
+Value value_of(const SensorFigures& s) {
+  return Value::object({{"recording", s.recording},
+                        {"sensor", s.channel},
+                        {"unit", s.unit},
+                        {"rms", s.rms},
+                        {"error_fitted", s.training},
+                        {"error_held_back", s.held_back},
+                        {"offset", s.offset}});
+}
+
+template <class T>
+Value values_of(const std::vector<T>& all) {
+  Value list = Value::array();
+  for (const T& one : all) list.push_back(value_of(one));
+  return list;
+}
+
+double mean_half(const ObservedQuantity& q) {
+  return std::accumulate(q.half.begin(), q.half.end(), 0.0) / static_cast<double>(q.half.size());
+}
+
+Value additions_json(const std::vector<PlantAddition>& additions) {
+  Value list = Value::array();
+  for (const PlantAddition& one : additions)
+    list.push_back(Value::object({{"what", one.what},
+                                  {"intervals_times", one.intervals},
+                                  {"most", one.most},
+                                  {"most_times", one.of_most}}));
+  return list;
+}
+
+}  // namespace
+
+Value to_json(const PlantAdvice& advice) {
+  Value profiles = Value::array();
+  for (const ParameterProfile& one : advice.profiles)
+    profiles.push_back(Value::object({{"name", one.name},
+                                      {"unit", one.unit},
+                                      {"value", Value::array(one.value)},
+                                      {"misfit", Value::array(one.misfit)},
+                                      {"low", any_number(one.low)},
+                                      {"high", any_number(one.high)}}));
+  return Value::object({{"grade", advice.grade},
+                        {"worst", advice.worst},
+                        {"sensors", additions_json(advice.sensors)},
+                        {"recordings", additions_json(advice.rides)},
+                        {"profiles", std::move(profiles)}});
+}
+
+Value to_json(const InPlantReport& r, const std::string& law) {
+  Value confounded = Value::array();
+  for (const auto& group : r.knowable.confounded) confounded.push_back(Value::array(group));
+
+  return Value::object({{"law", law},
+                        {"converged", r.status == FitReport::Status::Converged},
+                        {"message", r.message},
+                        {"iterations", r.iterations},
+                        {"cpu_seconds", r.seconds},
+                        {"steps_per_sample", r.steps},
+                        {"step_error", r.step_error},
+                        {"plant", values_of(r.plant)},
+                        {"damper", values_of(r.damper)},
+                        {"nuisances", values_of(r.nuisances)},
+                        {"singular_values", Value::array(r.knowable.singular_values)},
+                        {"without_effect", Value::array(r.knowable.without_effect)},
+                        {"confounded", std::move(confounded)},
+                        {"sensors", values_of(r.sensors)},
+                        {"advice", to_json(r.advice)},
+                        {"warnings", Value::array(r.warnings)}});
+}
+
+ModelFile found_damper(const InPlantReport& report, const InPlantSetup& setup, double sample_time) {
+  ModelFile file;
+  file.model = report.model->with_offset(0);
+  file.drive_unit = setup.drive_unit;
+  file.sample_time = sample_time;
+  file.domain = report.domain;
+  file.dissipation = dissipation(*file.model, file.domain);
+  return file;
+}
+
+Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
+  Value recordings = Value::array(), errors = Value::array();
+
+  // What was found of each recording.
+  for (const ObservedRecording& one : report.recordings) {
+    Value sensors = Value::array(), quantities = Value::array();
+    for (const ObservedSensor& s : one.sensors)
+      sensors.push_back(Value::object({{"sensor", s.channel},
+                                       {"unit", s.unit},
+                                       {"rms", s.rms},
+                                       {"unexpected", s.surprise},
+                                       {"inside", s.inside},
+                                       {"offset", s.offset}}));
+    for (const ObservedQuantity& q : one.quantities)
+      quantities.push_back(
+          Value::object({{"name", q.name}, {"unit", q.unit}, {"half_band_mean", mean_half(q)}}));
+    recordings.push_back(Value::object({{"name", one.name},
+                                        {"quantities", std::move(quantities)},
+                                        {"sensors", std::move(sensors)}}));
+  }
+
+  // What was taken as uncertain.
+  for (const ForceError& one : report.noise.force)
+    errors.push_back(Value::object({{"deviation_N", one.deviation}, {"memory_s", one.memory}}));
+  return Value::object({{"plant", setup.model->name},
+                        {"force_errors", std::move(errors)},
+                        {"sensor_noise", Value::array(report.noise.sensors)},
+                        {"roughness_m3", report.noise.roughness},
+                        {"steps_per_sample", report.steps},
+                        {"cpu_seconds", report.seconds},
+                        {"recordings", std::move(recordings)},
+                        {"warnings", Value::array(report.warnings)}});
+}
+
+Record estimates_of(const ObservedRecording& observed) {
+  Record record;
+  record.name = observed.name;
+  record.sample_time = observed.sample_time;
+  for (std::size_t k = 0; k < observed.quantities.front().value.size(); ++k)
+    record.time.push_back(observed.sample_time * static_cast<double>(k));
+  for (const ObservedQuantity& q : observed.quantities) {
+    record.channels.push_back({.name = q.name, .unit = q.unit, .samples = q.value, .origin = {}});
+    record.channels.push_back(
+        {.name = q.name + "_half_band", .unit = q.unit, .samples = q.half, .origin = {}});
+  }
+  return record;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,217 @@
+#include "dashpot/machine/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+
+namespace dashpot {
+namespace {
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Where the search for what is unknown of the plant begins: stated, or its table's.
+void begin_unknowns(InPlantSetup& setup) {
+  const auto& rows = setup.model->parameters;
+  for (PlantUnknown& unknown : setup.unknown) {
+    if (!unknown.about)
+      unknown.about = rows[row_named(rows, unknown.name, setup.model->name, "plant")].value;
+    if (!(*unknown.about > 0))
+      throw Error("plant, " + unknown.name, "is unknown, and nothing says about how large it is",
+                  "{about: ..., from: ..., to: ...}");
+  }
+}
+
+/// The plant with what is unknown taken as where its search begins.
+InPlantSetup as_begun(InPlantSetup setup) {
+  for (const PlantUnknown& unknown : setup.unknown)
+    setup.known.emplace_back(unknown.name, *unknown.about);
+  setup.unknown.clear();
+  return setup;
+}
+
+/// The plant as it is stated, before its days are looked at.
+WatchedPlant as_stated(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                       InPlantSetup setup, const WatchOptions& options) {
+  require_setup(setup);
+  require_watchable(setup, options);
+  begin_unknowns(setup);
+  const double drive = setup.drive.empty() ? setup.level : domain.current_min;
+  WatchedPlant watched{.damper = mounted(std::move(damper), drive),
+                       .domain = domain,
+                       .setup = std::move(setup),
+                       .level = options.level};
+  for (const std::string& name : options.wears)
+    watched.wears.push_back(&find_wear(name, "tracked"));
+  return watched;
+}
+
+/// The share of each chart in the rate of false alarms.
+ChartOptions share_of(const WatchOptions& options, std::size_t charts) {
+  ChartOptions chart = options.chart;
+  chart.days *= static_cast<double>(charts);
+  return chart;
+}
+
+}  // namespace
+
+void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
+  const auto follows = [&](const char* name) {
+    return std::ranges::find(options.wears, name) != options.wears.end();
+  };
+  if (follows("force") && follows("rebound") && follows("compression"))
+    throw Error("tracked", "force is the sum of rebound and compression", "leave one of them out");
+  for (const PlantSensor& sensor : setup.sensors)
+    if (sensor.finds_delay)
+      throw Error("plant, " + sensor.channel, "its delay is unknown",
+                  "its value: 'dashpot identify --in' writes it into plants/");
+  const std::size_t known = 1 + options.known.size() +
+                            (options.level.empty() ? 0 : setup.unknown.size()),
+                    fewest = fewest_reference_days(known);
+  if (options.chart.reference < fewest)
+    throw Error("reference", "is " + std::to_string(options.chart.reference) + " days",
+                std::to_string(fewest) + " or more, from which the healthy scatter is learnt");
+  if (!options.level.empty() &&
+      std::ranges::find(setup.sensors, options.level, &PlantSensor::channel) == setup.sensors.end())
+    throw Error("level", "'" + options.level + "' is no sensor of the plant");
+}
+
+WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                           InPlantSetup setup, const std::vector<PlantRecording>& reference,
+                           const WatchOptions& options) {
+  constexpr int kRounds = 2;
+  if (reference.empty()) throw Error("recordings", "there are none", "name at least one");
+  WatchedPlant watched = as_stated(std::move(damper), domain, std::move(setup), options);
+
+  // The uncertainties by the plant's numbers, these by the uncertainties, and once more.
+  for (int round = 0; round < kRounds; ++round) {
+    const ObserveReport observed =
+        observe(watched.damper, domain, as_begun(watched.setup), reference,
+                {.causal = true, .threads = options.threads, .monitor = options.monitor});
+    watched.noise = observed.noise;
+    watched.steps = observed.steps;
+    std::vector<DayEstimate> days(reference.size());
+    parallel_for(days.size(), options.threads,
+                 [&](std::size_t d) { days[d] = estimate_day(watched, reference[d]); });
+    for (std::size_t k = 0; k < watched.setup.unknown.size(); ++k) {
+      std::vector<double> values;
+      for (const DayEstimate& day : days) values.push_back(day.plant[k]);
+      watched.setup.unknown[k].about = median_of(values);
+    }
+  }
+  return watched;
+}
+
+WatchedDay watch_day(const WatchedPlant& watched, const PlantRecording& recording,
+                     const WatchOptions& options) {
+  WatchedDay day{.estimate = estimate_day(watched, recording), .known = {}};
+  for (const std::string& name : options.known) {
+    const std::vector<double>& shown = recording.channel(name).samples;
+    day.known.push_back(std::accumulate(shown.begin(), shown.end(), 0.0) /
+                        static_cast<double>(shown.size()));
+  }
+  return day;
+}
+
+std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
+                                          const std::vector<WatchedDay>& days,
+                                          const WatchOptions& options) {
+  std::vector<WatchedQuantity> quantities;
+  for (const Wear* wear : watched.wears)
+    quantities.push_back({wear->name, wear->unit, wear->meaning, quantities.size(), {}});
+  if (!watched.level.empty())
+    for (const PlantSensor& sensor : watched.setup.sensors)
+      if (sensor.channel == watched.level)
+        quantities.push_back({watched.level,
+                              unit_of(sensor.place.quantity),
+                              "the mean of " + watched.level,
+                              quantities.size(),
+                              {}});
+
+  for (WatchedQuantity& quantity : quantities) {
+    const bool is_level = quantity.place >= watched.wears.size();
+    std::vector<ChartDay> values;
+    for (const WatchedDay& day : days) {
+      values.push_back({day.estimate.wear[quantity.place], day.known, day.estimate.converged});
+      values.back().known.push_back(std::log(day.estimate.excitation));
+      if (is_level)
+        values.back().known.insert(values.back().known.end(), day.estimate.plant.begin(),
+                                   day.estimate.plant.end());
+    }
+    quantity.chart = health_chart(values, share_of(options, quantities.size()));
+  }
+  return quantities;
+}
+
+Value found_of(const WatchedPlant& watched) {
+  Value plant = Value::object(), errors = Value::array();
+  for (const PlantUnknown& unknown : watched.setup.unknown) plant.add(unknown.name, *unknown.about);
+  for (const ForceError& one : watched.noise.force)
+    errors.push_back(Value::array(std::vector<double>{one.deviation, one.memory}));
+  return Value::object({{"plant", std::move(plant)},
+                        {"force_errors", std::move(errors)},
+                        {"sensor_noise", Value::array(watched.noise.sensors)},
+                        {"roughness", watched.noise.roughness},
+                        {"steps", watched.steps}});
+}
+
+WatchedPlant watched_again(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                           InPlantSetup setup, const Value& found, const WatchOptions& options) {
+  WatchedPlant watched = as_stated(std::move(damper), domain, std::move(setup), options);
+  ObjectReader reader(found, "what was found of a watched plant");
+  const Value& plant = reader.required("plant");
+  for (PlantUnknown& unknown : watched.setup.unknown) {
+    const Value* about = plant.find(unknown.name);
+    if (!about) throw Error(found.where(), "says nothing of " + unknown.name);
+    unknown.about = about->as_number();
+  }
+  watched.noise.force.clear();
+  for (const Value& one : reader.required("force_errors").items()) {
+    const std::vector<double> numbers = one.as_numbers();
+    if (numbers.size() != 2) throw Error(one.where(), "is no deviation with its memory");
+    watched.noise.force.push_back({numbers[0], numbers[1]});
+  }
+  watched.noise.sensors = reader.required("sensor_noise").as_numbers();
+  watched.noise.roughness = reader.number("roughness");
+  watched.steps = static_cast<int>(reader.number("steps"));
+  reader.finish();
+  return watched;
+}
+
+Value to_json(const WatchedDay& day) {
+  const DayEstimate& e = day.estimate;
+  return Value::object({{"name", e.name},
+                        {"wear", Value::array(e.wear)},
+                        {"wear_deviation", Value::array(e.wear_deviation)},
+                        {"plant", Value::array(e.plant)},
+                        {"plant_deviation", Value::array(e.plant_deviation)},
+                        {"excitation", e.excitation},
+                        {"iterations", e.iterations},
+                        {"converged", e.converged},
+                        {"known", Value::array(day.known)}});
+}
+
+WatchedDay watched_day_from_json(const Value& value) {
+  ObjectReader reader(value, "a watched day");
+  WatchedDay day;
+  day.estimate = {.name = reader.string("name"),
+                  .wear = reader.required("wear").as_numbers(),
+                  .wear_deviation = reader.required("wear_deviation").as_numbers(),
+                  .plant = reader.required("plant").as_numbers(),
+                  .plant_deviation = reader.required("plant_deviation").as_numbers(),
+                  .excitation = reader.number("excitation"),
+                  .iterations = static_cast<int>(reader.number("iterations")),
+                  .converged = reader.boolean("converged", false)};
+  day.known = reader.required("known").as_numbers();
+  reader.finish();
+  return day;
+}
+
+}  // namespace dashpot

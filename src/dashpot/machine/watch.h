@@ -1,0 +1,63 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/machine/day_estimate.h"
+#include "dashpot/machine/health_chart.h"
+#include "dashpot/value.h"
+
+namespace dashpot {
+
+// A damper that works in a plant, followed from day to day: each day's recording says how much its
+// force has become another than its model's, and a chart per quantity when it has fallen.
+
+struct WatchOptions {
+  std::vector<std::string> wears = {"force"};
+  std::string level;               ///< channel of a sensor whose mean is followed; empty: none
+  std::vector<std::string> known;  ///< channels whose mean may explain a day, as a temperature
+  ChartOptions chart;              ///< days: between false alarms of all charts together
+  int threads = 0;
+  Monitor monitor;
+};
+
+/// A day as it is kept.
+struct WatchedDay {
+  DayEstimate estimate;
+  std::vector<double> known;  ///< of the options' channels, means
+};
+
+/// Throws Error where options and plant do not fit together.
+void require_watchable(const InPlantSetup& setup, const WatchOptions& options);
+
+/// The plant as the first reference days show it: uncertainties, and where its unknown numbers lie.
+/// Throws Error before long work where options, plant, damper and recordings do not fit together.
+WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                           InPlantSetup setup, const std::vector<PlantRecording>& reference,
+                           const WatchOptions& options);
+
+/// One day. A channel of `known` must be in the recording.
+WatchedDay watch_day(const WatchedPlant& watched, const PlantRecording& recording,
+                     const WatchOptions& options);
+
+/// A quantity that is followed, and its chart.
+struct WatchedQuantity {
+  std::string name, unit, meaning;
+  std::size_t place;  ///< among DayEstimate::wear
+  Chart chart;
+};
+/// The charts of all days, in their order. The stated rate of false alarms is shared out among
+/// them. How strongly the plant was moved explains a day: so much of its value is the model's
+/// error. A level is explained by the plant's unknown numbers of the day too, since a load moves
+/// both.
+std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
+                                          const std::vector<WatchedDay>& days,
+                                          const WatchOptions& options);
+
+/// What of a watched plant was found, as JSON, and such a plant again.
+Value found_of(const WatchedPlant& watched);
+WatchedPlant watched_again(std::shared_ptr<const DamperModel> damper, const Domain& domain,
+                           InPlantSetup setup, const Value& found, const WatchOptions& options);
+Value to_json(const WatchedDay& day);
+WatchedDay watched_day_from_json(const Value& value);
+
+}  // namespace dashpot

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/value.h"
+#include "handles.h"
+
+namespace {
+
+using Rides = Held<dashpot_rides, dashpot_rides_free>;
+
+const char* const kPushedMass =
+    "plant: oscillator\n"
+    "parameters: {mass: unknown, damping: 0, stiffness: 4000 N/m}\n"
+    "inputs: [{channel: push, kind: force, at: mass}]\n"
+    "sensors:\n"
+    "  - {channel: x, quantity: displacement, at: mass, noise: 0.01 mm}\n"
+    "  - {channel: a, quantity: acceleration, at: mass, noise: 0.01}\n";
+
+/// A mass of 10 kg with c = 40 N*s/m and a Coulomb force of 8 N, pushed at random.
+dashpot::Record pushed_mass() {
+  const dashpot::Law& law = dashpot::find_law("bingham");
+  std::vector<double> p(law.params.size());
+  p[law.index_of("c0")] = 40;
+  p[law.index_of("f_c")] = 8;
+  dashpot::InPlantSetup setup = dashpot::parse_in_plant_setup(kPushedMass, "plant");
+  setup.unknown.clear();
+  setup.known.emplace_back("mass", 10);
+  return dashpot::virtual_campaign(setup, dashpot::LawModel::constant(law, p),
+                                   {.duration = 4, .sample_rate = 200, .levels = {0}, .push = 30})
+      .front()
+      .recorded;
+}
+
+dashpot_status add(dashpot_rides* rides, const dashpot::Record& record) {
+  const dashpot_named_column columns[] = {{"push [N]", {record.channel("push").samples.data(), 1}},
+                                          {"x [m]", {record.channel("x").samples.data(), 1}},
+                                          {"a", {record.channel("a").samples.data(), 1}}};
+  const dashpot_table table = {"pushed", record.size(), record.sample_time, columns, 3, nullptr};
+  return dashpot_rides_add(rides, &table);
+}
+
+}  // namespace
+
+TEST_CASE("a damper inside a plant: identified from arrays, then observed") {
+  Rides rides;
+  REQUIRE(dashpot_rides_new(&rides) == DASHPOT_OK);
+  const dashpot::Record record = pushed_mass();
+  REQUIRE(add(rides, record) == DASHPOT_OK);
+  CHECK(dashpot_rides_count(rides) == 1);
+
+  // What was found: the mass, the damper, the plant for the observer, what would help.
+  Model model;
+  Text report;
+  REQUIRE(dashpot_identify_in_plant(
+              rides, kPushedMass,
+              R"({"models": ["tanh_kwok"], "fix": ["k=0"], "starts": 4, "command": "a test"})",
+              nullptr, &model, &report) == DASHPOT_OK);
+  const dashpot::Value told = dashpot::parse_json(report.handle, "report");
+  const dashpot::Value& mass = told.find("plant")->items().front();
+  CHECK(mass.find("name")->as_string() == "mass");
+  CHECK_CLOSE(mass.find("value")->as_number(), 10, 0.01, 0);
+  CHECK(!told.find("advice")->find("sensors")->items().empty());
+  Text text;
+  REQUIRE(dashpot_model_text(model, &text) == DASHPOT_OK);
+  CHECK(contains(text.handle, "identified in a plant: oscillator"));
+  CHECK(contains(text.handle, "a test"));
+
+  const std::string found = dashpot::format_json(*told.find("found"));
+  Recordings estimates;
+  Text observed;
+  REQUIRE(dashpot_observe(model, rides, found.c_str(), R"({"force_error": [[1, 0.02]]})", nullptr,
+                          &estimates, &observed) == DASHPOT_OK);
+  dashpot_record_info info;
+  REQUIRE(dashpot_recordings_get_info(estimates, 0, &info) == DASHPOT_OK);
+  CHECK(info.samples == record.size());
+  dashpot_channel force, half;
+  REQUIRE(dashpot_recordings_channel(estimates, 0, 0, &force) == DASHPOT_OK);
+  REQUIRE(dashpot_recordings_channel(estimates, 0, 1, &half) == DASHPOT_OK);
+  CHECK(std::string(force.name) == "damper_force");
+  CHECK(std::string(half.name) == "damper_force_half_band");
+  CHECK(std::all_of(half.data, half.data + info.samples, [](double h) { return h > 0; }));
+  CHECK(contains(observed.handle, "force_errors"));
+}
+
+TEST_CASE("inside a plant: what cannot be is refused with what would be right") {
+  Rides rides;
+  REQUIRE(dashpot_rides_new(&rides) == DASHPOT_OK);
+  dashpot_model* model = nullptr;
+  const auto refusal = [&](const char* plant, const char* options) {
+    const dashpot_status status =
+        dashpot_identify_in_plant(rides, plant, options, nullptr, &model, nullptr);
+    CHECK(model == nullptr);
+    return message_of(DASHPOT_BAD_INPUT, status);
+  };
+  const char* const one = R"({"models": ["tanh_kwok"]})";
+  CHECK(contains(refusal(kPushedMass, one), "rides: there are none"));
+  REQUIRE(add(rides, pushed_mass()) == DASHPOT_OK);
+  CHECK(contains(refusal(kPushedMass, "{}"), "models: are 0 laws"));
+  CHECK(contains(refusal(kPushedMass, R"({"models": ["tanh_quok"]})"), "tanh_quok"));
+  CHECK(contains(refusal(kPushedMass, R"({"models": ["tanh_kwok"], "grade": "lab"})"),
+                 "unknown grade 'lab'"));
+  CHECK(contains(refusal(kPushedMass, R"({"models": ["tanh_kwok"], "speed": 1})"),
+                 "unknown key 'speed'"));
+  CHECK(contains(refusal("plant: bicycle\n", one), "bicycle"));
+  CHECK(contains(refusal("no_such.yaml", one), "no_such.yaml"));
+  std::string other = kPushedMass;
+  other.replace(other.find("channel: a"), 10, "channel: b");
+  CHECK(contains(refusal(other.c_str(), one), "has no column 'b'"));
+
+  const dashpot_named_column nameless[] = {{nullptr, {nullptr, 1}}};
+  const dashpot_table table = {nullptr, 5, 0.01, nameless, 1, nullptr};
+  CHECK(dashpot_rides_add(rides, &table) == DASHPOT_BAD_INPUT);
+  CHECK(dashpot_rides_load(rides, "/no/such/folder") == DASHPOT_BAD_INPUT);
+  CHECK(dashpot_rides_count(rides) == 1);
+  const Model known = published();
+  dashpot_recordings* estimates = nullptr;
+  CHECK(contains(
+      message_of(DASHPOT_BAD_INPUT, dashpot_observe(known, rides, kPushedMass, R"({"level": 2})",
+                                                    nullptr, &estimates, nullptr)),
+      "level: is 2"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_observe(known, rides, kPushedMass, nullptr,
+                                                               nullptr, &estimates, nullptr)),
+                 "mass"));
+}

@@ -1,0 +1,101 @@
+#include "dashpot/base/file.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/model_file.h"
+#include "dashpot/value.h"
+#include "program.h"
+
+using namespace dashpot;
+
+namespace {
+
+const char* const kWatchedMass =
+    "plant: oscillator\n"
+    "parameters: {mass: {about: 100 kg, from: 50 kg, to: 200 kg}, damping: 0, "
+    "stiffness: 40000 N/m}\n"
+    "inputs: [{channel: push, kind: force, at: mass}]\n"
+    "sensors:\n"
+    "  - {channel: x, quantity: displacement, at: mass, noise: 0.1 mm}\n"
+    "  - {channel: a, quantity: acceleration, at: mass, noise: 0.05}\n"
+    "current: 0 A\n";
+
+/// Days of the mass with a damper that is worn so far.
+std::string record_days(const TemporaryFolder& folder, const std::string& plant,
+                        const std::string& name, int from, int count, const std::string& wear) {
+  const std::string days = (folder.path() / name).string();
+  for (int day = from; day < from + count; ++day) {
+    const std::string ride = (folder.path() / "ride").string();
+    REQUIRE(run_dashpot("bench --in " + plant + " --damper kwok2006 " + wear +
+                        " --true mass=103kg --push 800 --duration 4 --sample-rate 200 --seed " +
+                        std::to_string(day) + " --output " + ride)
+                .exit_code == 0);
+    write_file(days + "/day_" + std::to_string(day) + ".csv", read_file(ride + "/ride_1.csv"));
+  }
+  return days;
+}
+
+}  // namespace
+
+TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the alarm") {
+  const TemporaryFolder folder;
+  const std::string plant = folder.write("plant.yaml", kWatchedMass).string(),
+                    state = (folder.path() / "mass.watch").string(),
+                    out = (folder.path() / "out").string(),
+                    model = (folder.path() / "model.json").string();
+  save_model(to_model_file(load_parameter_set("kwok2006")), model);
+  const std::string healthy = record_days(folder, plant, "healthy", 1, 8, "");
+  const std::string words = "watch " + model + " --in " + plant + " --tracked force --reference 6" +
+                            " --false-alarms 0.01 --state " + state + " --output " + out + ' ';
+
+  const ProgramResult first = stdout_of_dashpot(words + healthy + " --json");
+  REQUIRE(first.exit_code == 0);
+  const Value told = parse_json(first.output, "stdout");
+  CHECK(!told.find("alarm")->as_bool());
+  REQUIRE(told.find("days")->items().size() == 8);
+  const Value& day = told.find("days")->items()[7];
+  CHECK(std::abs(day.find("amounts")->find("force")->find("value")->as_number()) < 0.05);
+  CHECK(std::abs(day.find("plant")->find("mass")->as_number() - 103) < 3);
+  CHECK(contains(read_file(out + "/report.html"), "watched from day to day"));
+  CHECK(contains(read_file(out + "/report.csv"), "day,force,force_deviation"));
+
+  // The same folder again: nothing is looked at twice, and the same comes out.
+  const ProgramResult again = run_dashpot(words + healthy);
+  CHECK(contains(again.output, "8 days, 0 new recordings looked at"));
+  CHECK(contains(again.output, "No alarm on 2 days behind 6 reference days."));
+
+  // A damper that has lost a third of its force: the days before are not looked at again.
+  const std::string weak = record_days(folder, plant, "weak", 20, 3, "--wear force=-0.3");
+  const ProgramResult faded = stdout_of_dashpot(words + weak + " --json");
+  REQUIRE(faded.exit_code == 0);
+  INFO(faded.output);
+  const Value alarmed = parse_json(faded.output, "stdout");
+  CHECK(alarmed.find("days")->items().size() == 11);
+  REQUIRE(alarmed.find("alarm")->as_bool());
+  const Value& chart = alarmed.find("charts")->items()[0];
+  CHECK(chart.find("since")->as_string() == "day_20.csv");
+  CHECK(std::abs(chart.find("fall")->as_number() - 0.3) < 0.06);
+  CHECK(contains(run_dashpot(words).output, "ALARM: the damper's whole force has fallen by"));
+
+  // Another plant is no plant of this state.
+  const std::string other =
+      folder.write("other.yaml", std::string(kWatchedMass) + "skip: 1 s\n").string();
+  CHECK(contains(run_dashpot("watch " + model + " --in " + other + " --tracked force --state " +
+                             state + ' ' + weak)
+                     .output,
+                 "plant"));
+}
+
+TEST_CASE("watch: what cannot be is said before the work") {
+  const TemporaryFolder folder;
+  const std::string plant = folder.write("plant.yaml", kWatchedMass).string(),
+                    model = (folder.path() / "model.json").string();
+  save_model(to_model_file(load_parameter_set("kwok2006")), model);
+  const std::string day = folder.write("day.csv", "time [s],push [N],x [m],a\n0,0,0,0\n").string();
+  const std::string words = "watch " + model + " " + day + " ";
+  const auto refusal = [&](const std::string& more) { return run_dashpot(words + more).output; };
+  CHECK(contains(refusal(""), "--in: is missing"));
+  CHECK(contains(refusal("--in " + plant + " --tracked forse"), "forse"));
+  CHECK(contains(refusal("--in " + plant + " --false-alarms 2"), "--false-alarms: must lie"));
+  CHECK(contains(refusal("--in " + plant + " --level y"), "'y' is no sensor of the plant"));
+  CHECK(contains(refusal("--in " + plant + " --reference 2"), "is 2 days; 5 or more"));
+  CHECK(contains(refusal("--in " + plant + " " + day), "is the same file as"));
+}

@@ -1,0 +1,199 @@
+#include "dashpot/machine/watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/random.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/numerics/distributions.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// Days of a number that scatters by `scatter` about 5 + 2 * known, and falls from day `from` on.
+std::vector<ChartDay> chart_days(std::size_t count, std::uint64_t seed, std::size_t from,
+                                 double fall) {
+  Random random(seed);
+  std::vector<ChartDay> days;
+  for (std::size_t d = 0; d < count; ++d) {
+    const double known = random.normal();
+    days.push_back({5 + 2 * known + 0.1 * random.normal() - (d >= from ? fall : 0), {known}});
+  }
+  return days;
+}
+
+const std::string kWatchedOscillator =
+    "plant: oscillator\n"
+    "parameters: {mass: {about: 10 kg, from: 5 kg, to: 20 kg}, damping: 0, stiffness: 4000 N/m}\n"
+    "inputs: [{channel: push, kind: force, at: mass}]\n"
+    "sensors:\n"
+    "  - {channel: x, quantity: displacement, at: mass, noise: 0.1 mm}\n"
+    "  - {channel: a, quantity: acceleration, at: mass, noise: 0.02}\n";
+
+std::shared_ptr<const DamperModel> tanh_damper() {
+  const Law& law = find_law("tanh_kwok");
+  std::vector<double> p(law.params.size());
+  for (const auto& [name, value] :
+       {std::pair{"c", 40.0}, {"k", 200.0}, {"alpha", 8.0}, {"beta", 20.0}, {"delta", 0.02}})
+    p[law.index_of(name)] = value;
+  return std::make_shared<LawModel>(LawModel::constant(law, p));
+}
+
+const Domain kOscillatorDomain = {-0.05, 0.05, -0.5, 0.5, 0, 0};
+
+/// A day of the oscillator with so much mass and wear.
+PlantRecording oscillator_day(double mass, double force, std::uint64_t seed) {
+  InPlantSetup setup = parse_in_plant_setup(kWatchedOscillator, "oscillator.yaml");
+  setup.unknown.clear();
+  setup.known.emplace_back("mass", mass);
+  const WornDamper damper(tanh_damper(), {{&find_wear("force", "test"), force}});
+  const VirtualRide ride =
+      virtual_campaign(setup, damper,
+                       {.duration = 4, .sample_rate = 200, .levels = {0}, .push = 20, .seed = seed})
+          .front();
+  return {.name = "day",
+          .sample_time = ride.recorded.sample_time,
+          .samples = ride.recorded.size(),
+          .channels = ride.recorded.channels};
+}
+
+WatchedPlant watched_oscillator(const std::vector<std::string>& wears) {
+  WatchedPlant watched{.damper = tanh_damper(),
+                       .domain = kOscillatorDomain,
+                       .setup = parse_in_plant_setup(kWatchedOscillator, "oscillator.yaml")};
+  for (const std::string& name : wears) watched.wears.push_back(&find_wear(name, "test"));
+  watched.noise = {.force = {{0.5, 0.02}}, .sensors = {1e-4, 0.02}};
+  return watched;
+}
+
+}  // namespace
+
+TEST_CASE("normal_score: of Student's t, and the normal distribution where days are many") {
+  CHECK_CLOSE(normal_score(1e7, 1.7), 1.7, 1e-5, 0);
+  CHECK_CLOSE(normal_score(5, students_t_quantile(5, 0.99)), normal_quantile(0.99), 1e-9, 0);
+  CHECK(normal_score(3, -4) == -normal_score(3, 4));
+  CHECK(std::isfinite(normal_score(3, -1e200)));
+}
+
+TEST_CASE("cusum_run_length: as published, and as counted") {
+  // D. M. Hawkins, D. H. Olwell, Cumulative Sum Charts, 1998: k = 0.5, h = 4 and 5, one side, where
+  // scores are not held; holding them within 3 moves it by little.
+  CHECK_CLOSE(cusum_run_length(0.5, 4), 335.4, 0.04, 0);
+  CHECK_CLOSE(cusum_run_length(0.5, 5), 930.9, 0.06, 0);
+  CHECK_CLOSE(cusum_run_length(0.5, cusum_threshold(0.5, 100)), 100, 1e-6, 0);
+
+  Random random(5);
+  const double threshold = cusum_threshold(0.5, 50);
+  double days = 0, sum = 0;
+  int alarms = 0;
+  while (alarms < 4000) {
+    ++days;
+    sum = std::max(0.0, sum - std::clamp(random.normal(), -kMostScore, kMostScore) - 0.5);
+    if (sum <= threshold) continue;
+    ++alarms;
+    sum = 0;
+  }
+  CHECK_CLOSE(days / alarms, 50, 0.06, 0);
+}
+
+TEST_CASE("health_chart: the stated rate although mean, scatter and slope are learnt") {
+  // Eight reference days for three numbers: a chart of known scatter would alarm far too often.
+  constexpr int kRuns = 3000;
+  const ChartOptions options{.reference = 8, .days = 60, .threshold = cusum_threshold(0.5, 60)};
+  double days = 0;
+  int alarms = 0;
+  for (int run = 0; run < kRuns; ++run) {
+    const std::vector<ChartDay> healthy = chart_days(108, 100 + run, 1000, 0);
+    const Chart chart = health_chart(healthy, options);
+    alarms += chart.alarm.has_value();
+    days += static_cast<double>(chart.alarm ? *chart.alarm - 7 : 100);
+  }
+  CHECK_CLOSE(days / alarms, 60, 0.1, 0);
+}
+
+TEST_CASE("health_chart: a fall is found, dated and measured, and teaches nothing") {
+  const std::vector<ChartDay> days = chart_days(90, 3, 60, 0.2);
+  const Chart chart = health_chart(days, {.reference = 20, .days = 1000});
+  REQUIRE(chart.alarm);
+  CHECK(*chart.alarm >= 60);
+  CHECK(*chart.alarm < 75);
+  CHECK(chart.since >= 55);
+  CHECK(chart.since <= 62);
+  CHECK_CLOSE(chart.fall, 0.2, 0, 0.08);
+  CHECK(chart.fall_deviation < 0.1);
+  CHECK_CLOSE(chart.points.back().scatter, 0.1, 0.4, 0);
+
+  // Taught by what is known of a day: without that, the same fall drowns.
+  std::vector<ChartDay> blind = days;
+  for (ChartDay& day : blind) day.known.clear();
+  CHECK(health_chart(blind, {.reference = 20, .days = 1000}).points.back().scatter > 1.5);
+}
+
+TEST_CASE("a worn damper: what each wear adds, and its rest") {
+  const auto as_new = tanh_damper();
+  const DamperInput out{0.01, 0.2, 0}, in{0.01, -0.2, 0};
+  std::vector<double> state(as_new->state_size());
+  const auto force = [&](const std::string& wear, double amount, const DamperInput& at) {
+    return WornDamper(as_new, {{&find_wear(wear, "test"), amount}}).force(at, state);
+  };
+  const double pulled = as_new->force(out, state), pushed = as_new->force(in, state);
+  CHECK_CLOSE(force("force", -0.1, out), 0.9 * pulled, 1e-12, 0);
+  CHECK_CLOSE(force("rebound", -0.1, out), 0.9 * pulled, 1e-12, 0);
+  CHECK(force("rebound", -0.1, in) == pushed);
+  CHECK_CLOSE(force("compression", -0.1, in), 0.9 * pushed, 1e-12, 0);
+  CHECK_CLOSE(force("viscous", 10, in), pushed - 2, 1e-12, 0);
+  CHECK_CLOSE(force("stiffness", 100, in), pushed + 1, 1e-12, 0);
+  CHECK(contains(message_of([] { find_wear("forse", "--tracked"); }),
+                 "--tracked: unknown wear 'forse'; did you mean 'force'"));
+}
+
+TEST_CASE("estimate_day: the wear and the load of a day, with deviations that hold") {
+  const WatchedPlant watched = watched_oscillator({"force"});
+  const DayEstimate day = [&] {
+    WatchedPlant begun = watched;
+    begun.setup.unknown.front().about = 10.0;
+    return estimate_day(begun, oscillator_day(11, -0.2, 5));
+  }();
+  CHECK(day.converged);
+  CHECK_CLOSE(day.wear[0], -0.2, 0, 4 * day.wear_deviation[0]);
+  CHECK(day.wear_deviation[0] > 0);
+  CHECK(day.wear_deviation[0] < 0.05);
+  CHECK_CLOSE(day.plant[0], 11, 0.02, 0);
+}
+
+TEST_CASE("watch: what was found and the days come back as they were kept") {
+  WatchedPlant watched = watched_oscillator({"force"});
+  watched.setup.unknown.front().about = 10.5;
+  const WatchOptions options{.wears = {"force"}};
+  const Value found = found_of(watched);
+  const WatchedPlant again =
+      watched_again(tanh_damper(), kOscillatorDomain,
+                    parse_in_plant_setup(kWatchedOscillator, "oscillator.yaml"), found, options);
+  CHECK(format_json(found_of(again)) == format_json(found));
+  WatchedDay day{.estimate = {.name = "monday",
+                              .wear = {-0.1},
+                              .wear_deviation = {0.01},
+                              .plant = {10},
+                              .plant_deviation = {0.1},
+                              .excitation = 2e-5,
+                              .iterations = 3,
+                              .converged = true},
+                 .known = {21}};
+  CHECK(format_json(to_json(watched_day_from_json(to_json(day)))) == format_json(to_json(day)));
+  CHECK(contains(message_of([&] {
+                   watched_plant(tanh_damper(), kOscillatorDomain, watched.setup, {},
+                                 {.wears = {"force"}});
+                 }),
+                 "there are none"));
+  CHECK(contains(message_of([&] {
+                   watched_again(tanh_damper(), kOscillatorDomain, watched.setup, found,
+                                 {.wears = {"force", "rebound", "compression"}});
+                 }),
+                 "force is the sum of rebound and compression"));
+}

@@ -1,0 +1,66 @@
+import json
+import unittest
+
+import numpy as np
+from support import InFolder, program
+
+import dashpot
+
+PLANT = {
+    "plant": "oscillator",
+    "parameters": {"mass": {"about": "90 kg", "from": "50 kg", "to": "200 kg"}, "damping": 0, "stiffness": "40 kN/m"},
+    "inputs": [{"channel": "push", "kind": "force", "at": "mass"}],
+    "sensors": [
+        {"channel": "x", "quantity": "displacement", "at": "mass", "noise": "0.01 mm"},
+        {"channel": "a", "quantity": "acceleration", "at": "mass", "noise": 0.01},
+    ],
+}
+
+
+class InsideAPlant(InFolder):
+    """From a virtual ride to the damper, its plant and its force, which no sensor showed."""
+
+    def setUp(self):
+        super().setUp()
+        self.plant = self.folder / "plant.json"
+        self.plant.write_text(json.dumps(PLANT))
+        words = ["--damper", "kwok2006", "--duration", "4", "--push", "800", "--sample-rate", "200"]
+        program("bench", "--in", self.plant, "--true", "mass=100kg", *words, "--output", self.folder / "rides")
+        self.ride = self.folder / "rides" / "ride_1.csv"
+
+    def table(self):
+        names = self.ride.read_text().splitlines()[0].split(",")
+        return dict(zip(names, np.loadtxt(self.ride, delimiter=",", skiprows=1).T))
+
+    def test_identified_and_observed(self):
+        fit = dashpot.identify_in_plant(self.ride, self.plant, "tanh_kwok", starts=4)
+        mass = fit.parameters["mass"]
+        self.assertAlmostEqual(mass["value"], 100, delta=2)
+        self.assertLess(mass["low"], mass["value"])
+        self.assertTrue(fit.advice["sensors"])
+        self.assertEqual(fit.model.name, "tanh_kwok")
+
+        # Arrays give what the file does, to the bit.
+        same = dashpot.identify_in_plant(self.table(), PLANT, "tanh_kwok", starts=4)
+        self.assertEqual(same.parameters["mass"]["value"], mass["value"])
+
+        seen = dashpot.observe(fit.model, self.table(), fit.plant, force_error=[(20, 0.02)])
+        force, half = seen["damper_force"]
+        self.assertEqual(force.shape, (800,))
+        self.assertTrue((half > 0).all())
+        truth = np.loadtxt(self.folder / "rides" / "truth" / "ride_1.csv", delimiter=",", skiprows=1)[:, 1]
+        self.assertLess(np.std(truth - force), 0.05 * np.std(truth))
+        with self.assertRaises(KeyError):
+            seen["damper_farce"]
+
+    def test_wrong_use(self):
+        with self.assertRaisesRegex(dashpot.Error, "unknown law|tanh_quok"):
+            dashpot.identify_in_plant(self.ride, self.plant, "tanh_quok")
+        with self.assertRaisesRegex(dashpot.Error, "has no column 'push'"):
+            dashpot.identify_in_plant({"x": np.zeros(500), "a": np.zeros(500)}, PLANT, "tanh_kwok", sample_time=0.01)
+        with self.assertRaisesRegex(dashpot.Error, "mass"):
+            dashpot.observe(dashpot.published("spencer1997"), self.ride, PLANT)
+
+
+if __name__ == "__main__":
+    unittest.main()
