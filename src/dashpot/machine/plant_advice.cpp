@@ -33,7 +33,7 @@ std::vector<NumberOfInterest> numbers_of(const EndedFit& fit) {
   const std::size_t plant = fit.residuals.plant_unknowns();
   for (std::size_t k = 0; k < plant; ++k) {
     const FittedParameter p = fit.residuals.described(k, fit.solved.x);
-    numbers.push_back({p.name, p.unit, p.value, k, {fit.residuals.size_of(k)}});
+    numbers.push_back({p.name, p.unit, p.value, k, {fit.residuals.size_at(k, fit.solved.x)}});
   }
   for (const auto& c : fit.residuals.law_coefficients(fit.solved.x))
     if (!c.weights.empty())
