@@ -269,6 +269,7 @@ std::string states_text(const std::vector<std::string>& states) {
 std::string equation_text(const std::string& relation, std::size_t columns) {
   constexpr std::size_t kIndent = 4;
   std::string text, indent(kIndent, ' ');
+  if (kIndent + columns_of(relation) <= columns) return indent + relation + '\n';
   for (const std::string& part : wrap(relation, columns - 2 * kIndent)) {
     text += indent + part + '\n';
     indent.assign(2 * kIndent, ' ');
