@@ -7,7 +7,7 @@
  *
  *   s' = k (A v - r s),   r = exp(g_a) + |A v| exp(g_b)
  *   A  = P + Q a,         P, Q >= 0
- *   a  = 1 - exp(-q / i), q' = (drive - q) rate
+ *   a  = i (1 - exp(-q / i)), q' = (drive - q) rate
  *   f  = sum A s + c v + U'(x) + m (v - w) n,   w' = n (v - w)
  *
  * The gates g and the viscous term c >= 0 are small networks of v, x, q and of memories u that may
@@ -55,9 +55,9 @@ static inline double passive_displacement(const PassiveCell* c, const DamperInpu
   return (input->displacement - c->displacement_mean) * c->displacement_gain;
 }
 
-/* The share a of the drive's saturation: 0 without drive, never 1. */
+/* The share a: 0 without drive, rising as the drive at first, never to the saturation i. */
 static inline double passive_share(const PassiveCell* c, double drive) {
-  return -expm1(-fmax(drive, 0) / c->saturation);
+  return -c->saturation * expm1(-fmax(drive, 0) / c->saturation);
 }
 
 static inline double passive_lever(const PassiveCell* c, int k, double share) {

@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kEquation =
     "F = mean of members of  sum_k A_k s_k + c v + U'(x) + m (v - w) n,\n"
     "s_k' = k_k (A_k v - r_k s_k),  r_k = exp(g_ak) + |A_k v| exp(g_bk),  w' = n (v - w),\n"
-    "A = P + Q a,  a = 1 - exp(-q / i),  q' = (current - q) rate,  k, P, Q, m >= 0,\n"
+    "A = P + Q a,  a = i (1 - exp(-q / i)),  q' = (current - q) rate,  k, P, Q, m >= 0,\n"
     "[h, p] = tanh(W [v, x, d, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u),\n"
     "c = (z + sqrt(z^2 + 1)) / 2,  z = C [tanh(V [v, x, d, u, 1]), 1, a],  U convex";
 constexpr const char* kSource =

@@ -317,7 +317,7 @@ void initialise(PassiveNetwork& network, std::uint64_t seed) {
         z.springs > 1 ? static_cast<double>(k) / static_cast<double>(z.springs - 1) : 0.5;
     numbers[at.stiffness + k] = kSoft * std::pow(kStiff / kSoft, share);
     numbers[at.levers + k] = std::exp(-0.5);
-    numbers[at.levers + z.springs + k] = 1;
+    numbers[at.levers + z.springs + k] = 0.5;
   }
 
   // Memories from slow to fast, and the numbers that stand alone.

@@ -224,14 +224,15 @@ class Pass {
   V middle(const float* row, std::size_t t) const { return 0.5f * (at(row, t) + at(row, t + 1)); }
 
   V share(V drive) const {
-    return 1.0f - exp_lanes(-larger(V{}, drive) * (1 / p_[at_.saturation]));
+    const float most = p_[at_.saturation];
+    return most * (1.0f - exp_lanes(-larger(V{}, drive) * (1 / most)));
   }
   /// The slope by a share goes on to the drive and to the saturation.
   V share_back(V drive, V share, V slope) {
-    const V fall = drive > 0.0f ? slope * (1.0f - share) : V{};
     const float inverse = 1 / p_[at_.saturation];
-    by_saturation_ -= fall * drive * (inverse * inverse);
-    return fall * inverse;
+    const V part = share * inverse, fall = drive > 0.0f ? slope * (1.0f - part) : V{};
+    by_saturation_ += slope * part - fall * drive * inverse;
+    return fall;
   }
   V lever(std::size_t k, V share) const {
     return p_[at_.levers + k] + p_[at_.levers + n_ + k] * share;
