@@ -7,14 +7,14 @@
  *
  *   s' = k (A v - r s),   r = exp(g_a) + |A v| exp(g_b)
  *   A  = P + Q a,         P, Q >= 0
- *   a  = 1 - exp(-q / i), q' = (drive - q) rate
+ *   a  = i (1 - exp(-q / i)), q' = (drive - q) rate
  *   f  = sum A s + c v + U'(x) + m (v - w) n,   w' = n (v - w)
  *
  * The gates g and the viscous term c >= 0 are small networks of v, x, q and of memories u that may
  * be anything; g reads s, too:
  *
- *   [h, p] = tanh(W [v, x, q, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u)
- *   z = C [tanh(V [v, x, q, u, 1]), 1, a],  c = (z + sqrt(z^2 + 1)) / 2
+ *   [h, p] = tanh(W [v, x, d, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u)
+ *   z = C [tanh(V [v, x, d, u, 1]), 1, a],  c = (z + sqrt(z^2 + 1)) / 2
  *
  * U is convex: x^2 and an exponential to each side, which go on straight outside of the data.
  * Declared before: PASSIVE_MOST_INPUTS, PASSIVE_MOST_NEURONS, PASSIVE_MOST_SPRINGS. */
@@ -29,6 +29,7 @@ typedef struct PassiveCell {
   double velocity_low, velocity_high; /* what the networks see is held within */
   double drive_gain;                  /* 1/A or 1/V */
   double drive_low, drive_high;
+  double drive_fade;             /* beyond them the networks' reading of q ends so soon; 0: never */
   double force_scale;            /* N */
   double drive_rate, saturation; /* 1/s; i above */
   double inertia, inertia_rate;  /* m n; n, 1/s */
@@ -54,22 +55,28 @@ static inline double passive_displacement(const PassiveCell* c, const DamperInpu
   return (input->displacement - c->displacement_mean) * c->displacement_gain;
 }
 
-/* The share a of the drive's saturation: 0 without drive, never 1. */
+/* The share a: 0 without drive, rising as the drive at first, never to the saturation i. */
 static inline double passive_share(const PassiveCell* c, double drive) {
-  return -expm1(-fmax(drive, 0) / c->saturation);
+  return -c->saturation * expm1(-fmax(drive, 0) / c->saturation);
 }
 
 static inline double passive_lever(const PassiveCell* c, int k, double share) {
   return c->levers[k] + (c->levers[c->springs + k] * share);
 }
 
-/* What both networks see, held within the data: v, x, q, the memories. Returns how many. */
+/* What both networks see, held within the data: v, x, d (q about its middle), the memories. Beyond
+ * the data the drive moves levers and shares alone: what networks have read of it there fades.
+ * Returns how many. */
 static inline int passive_see(const PassiveCell* c, double velocity, double displacement,
                               double drive, const double* memories, double* inputs) {
+  const double within = held(drive, c->drive_low, c->drive_high);
   int k;
   inputs[0] = held(velocity, c->velocity_low, c->velocity_high);
   inputs[1] = held(displacement, c->displacement_low, c->displacement_high);
-  inputs[2] = held(drive, c->drive_low, c->drive_high);
+  inputs[2] = within - (0.5 * (c->drive_low + c->drive_high));
+  if (c->drive_fade > 0) {
+    inputs[2] *= fmax(1 - (fabs(drive - within) / c->drive_fade), 0);
+  }
   for (k = 0; k < c->memories; ++k) {
     inputs[3 + k] = memories[k];
   }

@@ -30,7 +30,7 @@ Member member_text(const PassiveNetwork& n, const std::string& name) {
   for (const double value :
        {n.displacement_mean, n.reads_displacement() ? 1 / n.displacement_scale : 0,
         n.displacement_low, n.displacement_high, 1 / n.velocity_scale, n.velocity_low,
-        n.velocity_high, 1 / n.drive_scale, n.drive_low, n.drive_high, n.force_scale,
+        n.velocity_high, 1 / n.drive_scale, n.drive_low, n.drive_high, n.drive_fade, n.force_scale,
         n.numbers[at.drive_rate], n.numbers[at.saturation], n.numbers[at.inertia],
         n.numbers[at.inertia_rate]})
     text.row += number(value);

@@ -12,7 +12,6 @@
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/member_report.h"
-#include "dashpot/identify/fit/trials.h"
 #include "dashpot/identify/judge/stroke.h"
 
 namespace dashpot {
@@ -23,11 +22,14 @@ constexpr double kStepsPerStroke = 25, kLongestStep = 0.01, kLongestSwitchingSte
 constexpr double kWindowTime = 1, kRunInShare = 0.25;  // s; of a window
 constexpr std::size_t kShortestWindow = 128, kLongestWindow = 400;
 constexpr std::size_t kUpdates = 1600,
-                      kTrialShare = 4;  // of a member; a trial makes one in so many
-/// How much the weights shrink by which networks read the drive: freely, hardly, not at all.
-constexpr std::array kDriveDecays{0.0, 1.0, 30.0};
-constexpr std::size_t kMostMotions = 4, kMostLevels = 6;  // groups of them, held back in turn
-constexpr double kDriveSpan = 2;                          // of the standardised drive
+                      kTrialShare = 2;  // of a member; a trial makes one in so many
+/// How much the networks' weights shrink: not at all, or as strange motions ask for.
+constexpr std::array kWeightDecays{0.0, 1.0};
+constexpr std::size_t kMostMotions = 4;  // groups of them, held back in turn
+/// Where the drive stands at levels, networks learn to do without reading it in this share of
+/// the windows, and do so beyond the levels, all the way from this share of their range on.
+constexpr double kBlindShare = 0.5, kFadeShare = 0.25;
+constexpr double kDriveSpan = 2;  // of the standardised drive
 
 using Records = std::vector<const FreeRunRecord*>;
 
@@ -56,27 +58,39 @@ std::size_t trial_updates(const NetworkDesign& design) {
   return std::max<std::size_t>(member_updates(design) / kTrialShare, 1);
 }
 
-/// Values that are held back in turn are dealt to so many groups; a single one cannot be.
-template <class Value>
-std::size_t group_count(const std::vector<Value>& values, std::size_t most) {
-  const std::size_t distinct = std::set<Value>(values.begin(), values.end()).size();
-  return distinct > 1 ? std::min(distinct, most) : 0;
+/// Whether networks read the drive within its levels only.
+bool reads_levels(const DriveRange& drive) { return !drive.varies && drive.levels > 1; }
+
+/// Places of the records that a trial does without.
+using HeldBack = std::set<std::size_t>;
+
+/// Motions in turn, dealt to kMostMotions groups; a single one cannot be held back.
+std::vector<HeldBack> motions_in_turn(const std::vector<Record>& records) {
+  std::set<std::string> motions;
+  for (const Record& record : records) motions.insert(record.condition);
+  if (motions.size() < 2) return {};
+  std::vector<HeldBack> parts(std::min(motions.size(), kMostMotions));
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const auto place = std::distance(motions.begin(), motions.find(records[r].condition));
+    parts[static_cast<std::size_t>(place) % parts.size()].insert(r);
+  }
+  return parts;
 }
 
-std::vector<std::string> conditions_of(const std::vector<Record>& records) {
-  std::vector<std::string> conditions;
-  for (const Record& record : records) conditions.push_back(record.condition);
-  return conditions;
+/// The least level of the drive and the greatest, where two others are left to extrapolate from.
+std::vector<HeldBack> end_levels_in_turn(const std::vector<Record>& records,
+                                         const DriveRange& drive) {
+  if (!reads_levels(drive) || drive.levels < 3) return {};
+  std::set<double> levels;
+  for (const Record& record : records) levels.insert(record.drive_level.value_or(0));
+  std::vector<HeldBack> parts(2);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const double level = records[r].drive_level.value_or(0);
+    if (level == *levels.begin()) parts[0].insert(r);
+    if (level == *levels.rbegin()) parts[1].insert(r);
+  }
+  return parts;
 }
-
-std::vector<double> levels_of(const std::vector<Record>& records) {
-  std::vector<double> levels;
-  for (const Record& record : records) levels.push_back(record.drive_level.value_or(0));
-  return levels;
-}
-
-/// How much the networks may read of the drive is tried where there are levels of it.
-bool tries_decays(const DriveRange& drive) { return !drive.varies && drive.levels > 1; }
 
 /// A network of the preset's size with the scales and ranges of the records.
 PassiveNetwork scaled_network(const PassiveNetworkPreset& preset, const Records& records,
@@ -117,6 +131,7 @@ PassiveNetwork scaled_network(const PassiveNetworkPreset& preset, const Records&
   n.drive_scale = most > 0 ? most / kDriveSpan : 1;
   n.drive_low = drive.low / n.drive_scale;
   n.drive_high = drive.high / n.drive_scale;
+  if (reads_levels(drive)) n.drive_fade = kFadeShare * (n.drive_high - n.drive_low);
   n.force_scale = force_deviation(records);
   n.model_step = network_step(records, drive.varies);
   return n;
@@ -149,7 +164,7 @@ class PassiveNetworkFit {
     start_ = scaled_network(preset_, as_recorded, drive);
     records_ = at_step(as_recorded, start_.model_step);
     for (const FreeRunRecord& record : records_) all_.push_back(&record);
-    if (tries_decays(drive)) decay_ = best_drive_decay(training);
+    decay_ = best_weight_decay(motions_in_turn(training), end_levels_in_turn(training, drive));
   }
 
   struct Member {
@@ -179,7 +194,8 @@ class PassiveNetworkFit {
     options.window = window_samples(start_.model_step);
     options.run_in = static_cast<std::size_t>(static_cast<double>(options.window) * kRunInShare);
     options.rate = options_.network.rate.value_or(options.rate);
-    options.drive_decay = effort.decay;
+    options.weight_decay = effort.decay;
+    options.blind_share = start_.drive_fade > 0 ? kBlindShare : 0;
     options.offsets = options_.offset == OffsetMode::Record;
     options.seed = effort.seed;
     options.on_update = [this] { options_.monitor.check(); };
@@ -190,52 +206,37 @@ class PassiveNetworkFit {
     return member;
   }
 
-  /// Divisions of the records by a value that each has: the values are dealt in turn to `groups`
-  /// at most, and each group is held back once.
-  template <class Value>
-  std::vector<FreeRunTrial> held_back_in_turn(const std::vector<Value>& values,
-                                              std::size_t groups) const {
-    const std::set<Value> distinct(values.begin(), values.end());
-    groups = group_count(values, groups);
-    std::vector<FreeRunTrial> trials(groups);
-    for (std::size_t r = 0; r < values.size(); ++r) {
-      const auto place =
-          static_cast<std::size_t>(std::distance(distinct.begin(), distinct.find(values[r])));
-      for (std::size_t group = 0; group < trials.size(); ++group)
-        (place % groups == group ? trials[group].held_back : trials[group].training)
-            .push_back(&records_[r]);
-    }
-    return trials;
-  }
-
   /// The mean logarithm of what trials leave of the records held back, for each decay: of the
   /// logarithm, so that one wild extrapolation does not decide alone.
-  std::array<double, kDriveDecays.size()> left_of(const std::vector<FreeRunTrial>& trials) const {
-    const std::size_t choices = kDriveDecays.size();
-    std::vector<double> left(choices * trials.size());
+  std::array<double, kWeightDecays.size()> left_of(const std::vector<HeldBack>& parts) const {
+    const std::size_t choices = kWeightDecays.size();
+    std::vector<double> left(choices * parts.size());
     parallel_for(left.size(), options_.threads, [&](std::size_t k) {
-      const FreeRunTrial& trial = trials[k / choices];
-      const Member found =
-          trained(trial.training,
-                  {kDriveDecays[k % choices], trial_updates(options_.network), options_.seed});
+      const HeldBack& part = parts[k / choices];
+      Records training, held_back;
+      for (std::size_t r = 0; r < records_.size(); ++r)
+        (part.contains(r) ? held_back : training).push_back(&records_[r]);
+
+      const Member found = trained(
+          training, {kWeightDecays[k % choices], trial_updates(options_.network), options_.seed});
       double squares = 0;
-      for (const FreeRunRecord* record : trial.held_back)
+      for (const FreeRunRecord* record : held_back)
         squares += squares_left(found.network, *record, options_.offset == OffsetMode::Record);
-      left[k] = std::log(squares) / static_cast<double>(trials.size());
+      left[k] = std::log(squares) / static_cast<double>(parts.size());
     });
-    std::array<double, kDriveDecays.size()> means{};
+    std::array<double, kWeightDecays.size()> means{};
     for (std::size_t k = 0; k < left.size(); ++k) means[k % choices] += left[k];
     return means;
   }
 
-  /// The decay that does best where motions and where levels of the drive, their ends too, are held
-  /// back in turn; both count alike.
-  double best_drive_decay(const std::vector<Record>& training) const {
-    const auto by_motion = left_of(held_back_in_turn(conditions_of(training), kMostMotions));
-    const auto by_level = left_of(held_back_in_turn(levels_of(training), kMostLevels));
-    std::array<double, kDriveDecays.size()> both{};
-    for (std::size_t k = 0; k < both.size(); ++k) both[k] = by_motion[k] + by_level[k];
-    return kDriveDecays[static_cast<std::size_t>(std::ranges::min_element(both) - both.begin())];
+  /// The decay that does best where motions and where the drive's ends are held back in turn; both
+  /// count alike.
+  double best_weight_decay(const std::vector<HeldBack>& motions,
+                           const std::vector<HeldBack>& ends) const {
+    const auto by_motion = left_of(motions), by_end = left_of(ends);
+    std::array<double, kWeightDecays.size()> both{};
+    for (std::size_t k = 0; k < both.size(); ++k) both[k] = by_motion[k] + by_end[k];
+    return kWeightDecays[static_cast<std::size_t>(std::ranges::min_element(both) - both.begin())];
   }
 
   const PassiveNetworkPreset preset_;
@@ -256,12 +257,11 @@ double passive_training_steps(const PassiveNetworkPreset& preset,
   for (const FreeRunRecord& record : recorded) records.push_back(&record);
   const DriveRange drive = drive_range(training, drive_unit);
 
-  // The members, and the trials of each shrinkage on each group held back.
-  std::size_t updates = designed(preset, design).members * member_updates(design);
-  if (tries_decays(drive))
-    updates += (group_count(conditions_of(training), kMostMotions) +
-                group_count(levels_of(training), kMostLevels)) *
-               kDriveDecays.size() * trial_updates(design);
+  // The members, and the trials of each decay on each part held back.
+  const std::size_t trials =
+      motions_in_turn(training).size() + end_levels_in_turn(training, drive).size();
+  const std::size_t updates = designed(preset, design).members * member_updates(design) +
+                              trials * kWeightDecays.size() * trial_updates(design);
   return static_cast<double>(updates * window_samples(network_step(records, drive.varies)));
 }
 

@@ -98,6 +98,38 @@ TEST_CASE("a passive network is a model file, to the bit") {
   CHECK(again->state_size() == model.state_size());
 }
 
+TEST_CASE("beyond the drive of the data networks do not read it, and levers go on") {
+  // The same network, read and blind: without the weights by which networks read the drive.
+  PassiveNetwork reading = example_passive_network(8, 0.5);
+  reading.lags = false;
+  reading.drive_low = 0.5;
+  reading.drive_fade = 0.25;
+  PassiveNetwork blind = reading;
+  const PassiveLayout at(blind.sizes);
+  constexpr std::size_t kDrive = 2;  // of v, x, q
+  for (std::size_t k = at.weights + kDrive; k < at.gates; k += blind.sizes.inputs())
+    blind.numbers[k] = 0;
+  for (std::size_t k = at.viscous_weights + kDrive; k < at.viscous; k += blind.sizes.seen() + 1)
+    blind.numbers[k] = 0;
+
+  const auto force = [](const PassiveNetwork& network, double drive) {
+    DamperInput from{0, 0, drive}, to{0.001, 0.1, drive};
+    std::vector<double> state(network.size());
+    network.rest(from, state);
+    network.advance(from, to, 0.02, state);
+    return network.force(to, state);
+  };
+  for (const double drive : {0.6, 1.9, 0.4, 2.1})
+    CHECK(std::abs(force(reading, drive) - force(blind, drive)) > 1e-3);
+  for (const double drive : {0.25, 0.0, 2.25, 4.0})
+    CHECK_CLOSE(force(reading, drive), force(blind, drive), 1e-12, 0);
+  CHECK(force(reading, 4) != force(reading, 2.25));
+
+  // Without a fade they read the end of the data's drive there.
+  reading.drive_fade = 0;
+  CHECK(std::abs(force(reading, 0) - force(blind, 0)) > 1e-3);
+}
+
 TEST_CASE("the force does not depend on how a motion is sampled") {
   const PassiveNetwork network = example_passive_network(4, 0.3);
   const auto forces = [&](double step) {

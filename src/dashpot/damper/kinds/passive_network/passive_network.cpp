@@ -42,6 +42,7 @@ PassiveCell cell_of(const PassiveNetwork& n) noexcept {
           .drive_gain = 1 / n.drive_scale,
           .drive_low = n.drive_low,
           .drive_high = n.drive_high,
+          .drive_fade = n.drive_fade,
           .force_scale = n.force_scale,
 
           // The numbers that training finds.
@@ -179,6 +180,8 @@ void PassiveNetwork::require_sound(const std::string& where) const {
   if (!(displacement_scale >= 0) || !std::isfinite(displacement_scale) ||
       !std::isfinite(displacement_mean))
     throw Error(where, "has a displacement scale that is negative or not finite");
+  if (!(drive_fade >= 0) || !std::isfinite(drive_fade))
+    throw Error(where, "has a fade of the drive that is negative or not finite");
   if (!(displacement_low <= displacement_high) || !(velocity_low <= velocity_high) ||
       !(drive_low <= drive_high))
     throw Error(where, "has a range that does not go upwards");

@@ -33,6 +33,7 @@ struct PassiveNetwork {
   double velocity_low = -1, velocity_high = 1;         ///< the networks see v held within
   double drive_scale = 1;                              ///< A or V
   double drive_low = 0, drive_high = 2;
+  double drive_fade = 0;     ///< so far beyond it networks read the drive no more; 0: they do
   double force_scale = 1;    ///< N
   double model_step = 1e-3;  ///< s; a longer step is divided, into 1000 at most
 

@@ -68,6 +68,7 @@ PassiveNetwork read_member(const Value& value) {
   read_range(reader, "velocity_range", n.velocity_low, n.velocity_high);
   n.drive_scale = reader.number("drive_scale");
   read_range(reader, "drive_range", n.drive_low, n.drive_high);
+  n.drive_fade = reader.number("drive_fade");
   n.force_scale = reader.number("force_scale");
   n.model_step = reader.number("model_step");
 
@@ -101,6 +102,7 @@ Value PassiveNetwork::to_json() const {
                              {"velocity_range", range(velocity_low, velocity_high)},
                              {"drive_scale", drive_scale},
                              {"drive_range", range(drive_low, drive_high)},
+                             {"drive_fade", drive_fade},
                              {"force_scale", force_scale},
                              {"model_step", model_step}});
   for (const Part& part : parts(sizes)) {

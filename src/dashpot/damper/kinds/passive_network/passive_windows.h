@@ -37,6 +37,8 @@ struct PassiveWindows {
   std::size_t samples;
   const float *displacement, *velocity, *drive, *force;
   const float* weight;   ///< of a sample's squared error
+  const float* reading;  ///< share of the drive that networks read, one per lane
+  float drive_middle;    ///< about which they do
   const float* offsets;  ///< of the windows' forces, one per lane
   float* forces;         ///< is filled: what the network says
   float* gradient;       ///< of the sum of weighted squares, is added to; null: not asked for

@@ -99,28 +99,34 @@ class WindowBatch {
   double block(const std::vector<double>& offsets, Random& random) {
     std::vector<std::size_t> chosen(kernel_.lanes);
     AlignedVector<float> lane_offsets(kernel_.lanes), lane_slopes(kernel_.lanes);
+    AlignedVector<float> reading(kernel_.lanes);
     for (std::size_t lane = 0; lane < kernel_.lanes; ++lane) {
       chosen[lane] = random.index(samples_.size());
       lane_offsets[lane] = static_cast<float>(offsets[chosen[lane]]);
       fill(lane, samples_[chosen[lane]], random);
+      const bool blind = options_.blind_share > 0 && random.uniform() < options_.blind_share;
+      reading[lane] = blind ? 0.0f : 1.0f;
     }
 
-    const PassiveWindows windows{.sizes = network_.sizes,
-                                 .lags = network_.lags,
-                                 .inert = network_.inert,
-                                 .numbers = numbers_.data(),
-                                 .step = static_cast<float>(network_.model_step),
-                                 .samples = options_.window,
-                                 .displacement = displacement_.data(),
-                                 .velocity = velocity_.data(),
-                                 .drive = drive_.data(),
-                                 .force = force_.data(),
-                                 .weight = weight_.data(),
-                                 .offsets = lane_offsets.data(),
-                                 .forces = forces_.data(),
-                                 .gradient = gradient_.data(),
-                                 .offset_gradient = lane_slopes.data(),
-                                 .room = room_.data()};
+    const PassiveWindows windows{
+        .sizes = network_.sizes,
+        .lags = network_.lags,
+        .inert = network_.inert,
+        .numbers = numbers_.data(),
+        .step = static_cast<float>(network_.model_step),
+        .samples = options_.window,
+        .displacement = displacement_.data(),
+        .velocity = velocity_.data(),
+        .drive = drive_.data(),
+        .force = force_.data(),
+        .weight = weight_.data(),
+        .reading = reading.data(),
+        .drive_middle = static_cast<float>(0.5 * (network_.drive_low + network_.drive_high)),
+        .offsets = lane_offsets.data(),
+        .forces = forces_.data(),
+        .gradient = gradient_.data(),
+        .offset_gradient = lane_slopes.data(),
+        .room = room_.data()};
     const double squares = kernel_.run(windows);
     for (std::size_t lane = 0; lane < kernel_.lanes; ++lane)
       offset_gradient_[chosen[lane]] += lane_slopes[lane];
@@ -206,19 +212,16 @@ class Descent {
 
  private:
   static constexpr double kMean = 0.9, kSquare = 0.99, kTiny = 1e-8, kLeastRate = 1e-5;
-  static constexpr std::size_t kDriveInput = 2;  // v, x, q
 
-  /// Weights of networks shrink a little; those by which they read the drive as much as asked.
+  /// Weights on what networks see shrink as much as asked.
   void set_decays(const PassiveSizes& sizes) {
     const PassiveLayout at(sizes);
-    const auto rows = [&](std::size_t first, std::size_t count, std::size_t width) {
-      std::fill_n(decay_.begin() + static_cast<std::ptrdiff_t>(first), count * width,
+    const auto shrink = [&](std::size_t first, std::size_t end) {
+      std::fill_n(decay_.begin() + static_cast<std::ptrdiff_t>(first), end - first,
                   options_.weight_decay);
-      for (std::size_t j = 0; j < count; ++j)
-        decay_[first + j * width + kDriveInput] += options_.drive_decay;
     };
-    rows(at.weights, sizes.neurons + sizes.memories, sizes.inputs());
-    rows(at.viscous_weights, sizes.viscous_neurons, sizes.seen() + 1);
+    shrink(at.weights, at.gates);
+    shrink(at.viscous_weights, at.viscous);
   }
 
   const PassiveTrainOptions& options_;
@@ -314,7 +317,7 @@ void initialise(PassiveNetwork& network, std::uint64_t seed) {
         z.springs > 1 ? static_cast<double>(k) / static_cast<double>(z.springs - 1) : 0.5;
     numbers[at.stiffness + k] = kSoft * std::pow(kStiff / kSoft, share);
     numbers[at.levers + k] = std::exp(-0.5);
-    numbers[at.levers + z.springs + k] = 1;
+    numbers[at.levers + z.springs + k] = 0.5;
   }
 
   // Memories from slow to fast, and the numbers that stand alone.

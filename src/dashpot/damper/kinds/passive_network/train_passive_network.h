@@ -15,9 +15,9 @@ struct PassiveTrainOptions {
   std::size_t window = 256,
               run_in = 64;  ///< samples of the network's step; the run-in is not scored
   double rate = 1e-2;
-  double weight_decay = 1e-5;
-  double drive_decay = 0;  ///< of the weights by which networks read the drive
-  bool offsets = true;     ///< one free force offset per record
+  double weight_decay = 0;  ///< of the networks' weights on what they see
+  double blind_share = 0;   ///< of the windows, in which networks do not read the drive
+  bool offsets = true;      ///< one free force offset per record
   std::uint64_t seed = 1;
   std::function<void()> on_update;  ///< may throw to stop
 };

@@ -224,22 +224,24 @@ class Pass {
   V middle(const float* row, std::size_t t) const { return 0.5f * (at(row, t) + at(row, t + 1)); }
 
   V share(V drive) const {
-    return 1.0f - exp_lanes(-larger(V{}, drive) * (1 / p_[at_.saturation]));
+    const float most = p_[at_.saturation];
+    return most * (1.0f - exp_lanes(-larger(V{}, drive) * (1 / most)));
   }
   /// The slope by a share goes on to the drive and to the saturation.
   V share_back(V drive, V share, V slope) {
-    const V fall = drive > 0.0f ? slope * (1.0f - share) : V{};
     const float inverse = 1 / p_[at_.saturation];
-    by_saturation_ -= fall * drive * (inverse * inverse);
-    return fall * inverse;
+    const V part = share * inverse, fall = drive > 0.0f ? slope * (1.0f - part) : V{};
+    by_saturation_ += slope * part - fall * drive * inverse;
+    return fall;
   }
   V lever(std::size_t k, V share) const {
     return p_[at_.levers + k] + p_[at_.levers + n_ + k] * share;
   }
 
-  /// v, x, q, the memories at this sample; returns what stands behind them.
+  /// v, x, what is read of q, the memories at this sample; returns what stands behind them.
   V* see(V* to, V velocity, V displacement, V drive, std::size_t t) const {
-    to[0] = velocity, to[1] = displacement, to[2] = drive;
+    to[0] = velocity, to[1] = displacement;
+    to[2] = (drive - w_.drive_middle) * load(w_.reading);
     for (std::size_t k = 0; k < m_; ++k) to[3 + k] = r_.memories[t * m_ + k];
     return to + 3 + m_;
   }
@@ -358,7 +360,8 @@ class Pass {
 
     // The drive, of which the step saw the middle.
     const V q = w_.lags ? 0.5f * (r_.drives[t] + r_.drives[t + 1]) : middle(w_.drive, t);
-    const V by_middle = by_inputs[2] + share_back(q, r_.shares[2 * t + 1], by_share);
+    const V by_middle =
+        by_inputs[2] * load(w_.reading) + share_back(q, r_.shares[2 * t + 1], by_share);
     if (w_.lags) {
       const V after = by_drive_ + 0.5f * by_middle;
       by_drive_rate_ -= after * (r_.drives[t] - middle(w_.drive, t)) * (drive_kept_ * w_.step);
@@ -386,7 +389,7 @@ class Pass {
     by_share += by_z * p_[at_.viscous + hc_ + 1];
     V by_seen[kMaxWidth] = {};
     multiply_back(p_ + at_.viscous_weights, hc_, z_.seen() + 1, slopes, by_seen);
-    by_drive += by_seen[2];
+    by_drive += by_seen[2] * load(w_.reading);
     for (std::size_t k = 0; k < m_; ++k) by_memories_[k] += by_seen[3 + k];
 
     // The potential and inertia.
