@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "asked_cases.h"
 #include "dashpot/base/random.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/plant.h"
@@ -57,6 +57,71 @@ StaticForce odd_damper(Random& random) {
            cubic * at.displacement * at.displacement * at.displacement;
   };
 }
+
+/// Random cars on random roads with random dampers: their bounds, and what controllers of Dashpot
+/// and demands at random reach on the dampers themselves.
+struct RandomRides {
+  int proven = 0, rides = 0, outside = 0;
+  double optimum = INFINITY, controller = INFINITY;  ///< the least over its bound, of squares
+
+  static constexpr double kDuration = 0.25, kTravel = 0.15;
+
+  std::string text() const {
+    return std::to_string(proven) + " bounds proven, " + std::to_string(rides) +
+           " rides; the closest optimum has " + std::to_string(optimum) +
+           " of its bound, the closest ride " + std::to_string(controller) + " (squares)";
+  }
+
+  void add(std::uint64_t number) {
+    Random random(number + 1);
+    const auto about = [&](double value) { return value * std::exp(0.4 * random.normal()); };
+    const Plant plant = load_plant_set("savaresi_spelta", {{"sprung_mass", about(400)},
+                                                           {"unsprung_mass", about(50)},
+                                                           {"spring_stiffness", about(20000)},
+                                                           {"tyre_stiffness", about(250000)}})
+                            .plant;
+    const StaticForce damper = odd_damper(random);
+    const ForceRange range =
+        force_range("odd", damper,
+                    {.current_min = 0, .current_max = 1, .velocity = 3, .displacement = kTravel});
+    const GroundPointer ground =
+        number % 4 == 0 ? make_ground("step,height=3cm", 1)
+                        : make_ground("iso8608,class=D,speed=20,length=40", random.next());
+    const RideIndex index =
+        weighted_index(0.5 * static_cast<double>(number % 3), RideSquares{1, 1e6});
+    const ClairvoyantBound found = clairvoyant_bound(
+        plant, *ground, range, index, {.duration = kDuration, .step = 2e-3, .iterations = 10});
+    if (!found.proven) return;
+    ++proven;
+    CHECK(found.bound <= found.optimum);
+    optimum = std::min(optimum, found.optimum / found.bound);
+
+    // On the damper itself.
+    const ControlLaw* law = control_laws()[random.next() % control_laws().size()];
+    std::vector<double> shares;
+    while (shares.size() < 250)
+      shares.insert(shares.end(), 1 + random.next() % 50, random.uniform());
+    const ControlLimits limits{.damping_min = 200, .damping_max = 3000, .current_max = 1};
+    for (const ControllerPointer& controls :
+         {make_controller(std::string(law->name), {limits, plant}), play_shares(shares)})
+      ride_on(plant, *ground, range, *controls, limits, found);
+  }
+
+ private:
+  void ride_on(const Plant& plant, const GroundMotion& ground, const ForceRange& range,
+               const Controller& controls, const ControlLimits& limits,
+               const ClairvoyantBound& found) {
+    const std::vector<MountedDamper> dampers{mounted(range)};
+    const Trace trace = simulate({plant, dampers, ground, &controls},
+                                 {.duration = kDuration, .output_step = 2.5e-4, .limits = limits});
+    const std::vector<double>& travel = trace.record.channel("suspension_deflection").samples;
+    const double reached = ride_squares(trace, plant).of(found.index);
+    ++rides;
+    outside += std::max(std::ranges::max(travel), -std::ranges::min(travel)) > kTravel;
+    CHECK(reached >= found.bound);
+    controller = std::min(controller, reached / found.bound);
+  }
+};
 
 }  // namespace
 
@@ -112,10 +177,10 @@ TEST_CASE("without limits the certificate is the linear regulator's cost") {
   any.ends = true;
   const LimitCourse no_limits{.block = car.cells(), .limits = {ForceLimit{}}};
   const std::optional<double> least =
-      certified_minimum(plant, car, any, index, no_limits, {1, 1, 10, 10}, cost);
+      certified_minimum(plant, car, any, index, no_limits, {1, 1, 10, 10}, cost / 20);
   REQUIRE(least);
   CHECK(*least <= cost * (1 + 1e-6));  // the midpoint rule's own error
-  CHECK_CLOSE(*least, cost, 1e-4, 0);
+  CHECK_CLOSE(*least, cost, 2e-4, 0);
 }
 
 TEST_CASE("with one damping there is one motion, and a narrow range lies close to it") {
@@ -247,10 +312,10 @@ TEST_CASE("a force that slows its own motion lies on the range") {
   const ForceRange bent = bent_range();
   for (const double free : {-2.0, -0.21, -0.01, 0.0, 0.105, 0.3, 1.0})
     for (const double share : {0.0, 0.7, 1.0}) {
-      const double by_force = -1e-5, force = bent.force_against(free, by_force, share);
+      const double by_force = -1e-5, force = bent.curves().force_against(free, by_force, share);
       CHECK_CLOSE(force, bent.force(free + by_force * force, share), 1e-9, 1e-9);
     }
-  CHECK_CLOSE(bent.share(0.1, 1150), 0.5, 1e-12, 0);
+  CHECK_CLOSE(bent.curves().share(0.1, 1150), 0.5, 1e-12, 0);
 }
 
 TEST_CASE("what has no clairvoyant bound says so") {
@@ -293,57 +358,18 @@ TEST_CASE("a spring inside a damper: the review's counter-example" * doctest::te
 }
 
 TEST_CASE("no random damper in a random car beats its bound" * doctest::test_suite("long")) {
-  // DASHPOT_BOUND_CASES=10000 for more of them.
-  const char* asked = std::getenv("DASHPOT_BOUND_CASES");
-  const int cases = asked ? std::atoi(asked) : 24;
-  int proven = 0, rides = 0, outside = 0;
-  double closest = 1;
-  for (int k = 0; k < cases; ++k) {
+  // DASHPOT_BOUND_CASES=10000 for more of them, or 2000-4000 for a part.
+  const auto [first, last] = asked_cases("DASHPOT_BOUND_CASES", 24);
+  RandomRides all;
+  for (int k = first; k < last; ++k) {
     CAPTURE(k);
-    Random random(static_cast<std::uint64_t>(k) + 1);
-    const auto about = [&](double value) { return value * std::exp(0.4 * random.normal()); };
-    const PlantSet set = load_plant_set("savaresi_spelta", {{"sprung_mass", about(400)},
-                                                            {"unsprung_mass", about(50)},
-                                                            {"spring_stiffness", about(20000)},
-                                                            {"tyre_stiffness", about(250000)}});
-    const ForceRange range =
-        force_range("odd", odd_damper(random),
-                    {.current_min = 0, .current_max = 1, .velocity = 3, .displacement = 0.15});
-    const GroundPointer ground =
-        k % 4 == 0 ? make_ground("step,height=3cm", 1)
-                   : make_ground("iso8608,class=D,speed=20,length=40", random.next());
-    const double duration = 0.4;
-    const RideSquares unit{1, 1e6};
-    const RideIndex index = weighted_index(0.5 * (k % 3), unit);
-    const ClairvoyantBound found = clairvoyant_bound(set.plant, *ground, range, index,
-                                                     {.duration = duration, .iterations = 10});
-    proven += found.proven;
-    if (!found.proven) continue;
-    CHECK(found.bound <= found.optimum);
-    closest = std::min(closest, found.gap());
-
-    // Controllers of Dashpot, and demands at random, on the damper itself.
-    const std::vector<MountedDamper> dampers{mounted(range)};
-    const ControlLaw* law = control_laws()[random.next() % control_laws().size()];
-    std::vector<double> shares;
-    while (shares.size() < 400)
-      shares.insert(shares.end(), 1 + random.next() % 50, random.uniform());
-    const ControlLimits limits{.damping_min = 200, .damping_max = 3000, .current_max = 1};
-    const ControllerPointer controllers[] = {
-        make_controller(std::string(law->name), {limits, set.plant}), play_shares(shares)};
-    for (const ControllerPointer& controller : controllers) {
-      const Trace trace = simulate({set.plant, dampers, *ground, controller.get()},
-                                   {.duration = duration, .output_step = 2.5e-4, .limits = limits});
-      ++rides;
-      outside += std::ranges::max(trace.record.channel("suspension_deflection").samples) > 0.15;
-      CHECK(ride_squares(trace, set.plant).of(index) >= found.bound);
-    }
+    all.add(static_cast<std::uint64_t>(k));
+    if ((k + 1 - first) % 200 == 0) MESSAGE(std::to_string(k + 1) << ": " << all.text());
   }
-  CHECK(proven >= 0.95 * cases);
-  CHECK(outside == 0);
-  CHECK(closest < 0.3);  // bounds that say something
-  MESSAGE(proven << " bounds proven of " << cases << ", " << rides
-                 << " rides, none below; least gap of squares " << closest);
+  CHECK(all.proven >= 0.95 * (last - first));
+  CHECK(all.outside == 0);
+  CHECK(all.optimum < 1.3);  // bounds that say something
+  MESSAGE(all.text());
 }
 
 TEST_CASE("what is proposed and wrong is not proven") {

@@ -24,6 +24,15 @@ TEST_CASE("friction that jumps is seen, and then sets in along a straight line")
   CHECK(force(*soft->with_offset(7), 0.3) == force(*soft, 0.3) + 7);
 }
 
+TEST_CASE("a stiff spring before a law's states is no jump") {
+  for (const double k2 : {2e5, 1e10}) {
+    const LawModel stiff =
+        LawModel::constant(find_law("extended_bingham"), {5000, 300, 20000, 1e5, k2, 0});
+    CHECK(!jumps_in_middle(stiff, 0, 1));
+    CHECK(!jumps_at_rest(stiff, 0, 1));
+  }
+}
+
 TEST_CASE("a force that jumps in the middle of the stroke changes over a short way instead") {
   // F = 1000 v + 700 tanh(100 v + 0.9 sgn(x))
   const auto kwok = std::make_shared<LawModel>(

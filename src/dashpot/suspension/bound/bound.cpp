@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/error.h"
@@ -68,30 +69,37 @@ Course best_course(const SampledPlant& car, const ForceRange& range, const RideI
   return best;
 }
 
-/// What the best limits prove. A climb may end at an edge that only its cells have: then the limits
-/// that stay pull it back, or less of them.
+/// What the best limits prove. A climb may end at an edge that only its cells have: then those that
+/// it passed on its way are tried, which lie further from it, pulled a little towards the limits
+/// that stay; and in the end less and less of these.
 std::optional<double> certified_best(const Plant& plant, const SampledPlant& car,
                                      const SampledPlant& coarse, const ForceRange& range,
-                                     const RideIndex& index, const Relaxation& relaxed,
+                                     const RideIndex& index, Relaxation relaxed,
                                      const MotionSquares& motion, double size) {
-  if (relaxed.best.limits.empty()) return {};
+  const auto certified = [&](const LimitCourse& limits) {
+    return certified_minimum(plant, car, range, index,
+                             on_cells(limits, car.cells(), coarse.step() / car.step()), motion,
+                             size);
+  };
 
-  // Instants at which the limit is many times its usual size make the Riccati equation stiff.
   constexpr double kMostTimesTheMedian = 30;
-  LimitCourse best = relaxed.best;
-  tame(best, kMostTimesTheMedian);
+  constexpr double kPulls[] = {0, 0.003, 0.01, 0.03};
+  for (; !relaxed.path.empty(); relaxed.path.pop_back()) {
+    // As they are, and with those made smaller that are many times as large as usual: they make the
+    // Riccati equation stiff, but others may rely on them.
+    const LimitCourse& best = relaxed.path.back();
+    LimitCourse tamed = best;
+    tame(tamed, kMostTimesTheMedian);
+    for (const LimitCourse* const course : {&best, &std::as_const(tamed)})
+      for (const double pull : kPulls)
+        if (const auto least = certified(mixed(*course, relaxed.constant, pull, 1))) return least;
+  }
 
-  // Towards the constant limits first, then ever less of all of them.
-  constexpr double kPulls[] = {0, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
+  // Ever less of those that stay.
   constexpr double kLeastPart = 1e-6;
-  for (double part = 1; part > kLeastPart; part /= 10)
-    for (const double pull : kPulls) {
-      const LimitCourse course = on_cells(mixed(best, relaxed.constant, pull, part), car.cells(),
-                                          coarse.step() / car.step());
-      const std::optional<double> least =
-          certified_minimum(plant, car, range, index, course, motion, size);
-      if (least) return least;
-    }
+  for (double part = 1; part > kLeastPart && !relaxed.constant.limits.empty(); part /= 10)
+    if (const auto least = certified(mixed(relaxed.constant, relaxed.constant, 1, part)))
+      return least;
   return {};
 }
 
@@ -112,16 +120,6 @@ RideIndex weighted_index(double comfort, const RideSquares& reference) {
 ControllerPointer play_shares(std::vector<double> shares) {
   if (shares.empty()) throw Error("clairvoyant bound", "there are no demands to play");
   return std::make_unique<SharePlayer>(std::move(shares));
-}
-
-std::vector<double> shares_of(const Trace& trace, const Plant& plant, const ForceRange& range) {
-  const std::string strut = plant.struts.front().name;
-  const std::vector<double>& velocity = trace.record.channel(strut + "_velocity").samples;
-  const std::vector<double>& force = trace.record.channel(strut + "_force").samples;
-  std::vector<double> shares;
-  for (std::size_t k = 0; k < force.size(); ++k)
-    shares.push_back(range.share(velocity[k], force[k]));
-  return shares;
 }
 
 ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,

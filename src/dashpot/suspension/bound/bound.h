@@ -68,9 +68,6 @@ std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const Ground
 double share_of_possible(double passive, double controller, double optimum);
 inline constexpr double kLeastPossible = 0.05;  ///< of passive
 
-/// Shares per step that a damper had in a trace whose output step is BoundOptions::step: a start
-/// for the optimum.
-std::vector<double> shares_of(const Trace& trace, const Plant& plant, const ForceRange& range);
 /// Demands one share after another, as currents of a RangeDamper; the last one stays.
 ControllerPointer play_shares(std::vector<double> shares);
 

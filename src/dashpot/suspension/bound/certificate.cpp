@@ -5,61 +5,134 @@
 namespace dashpot {
 namespace {
 
-/// A lower bound of a limit at a displacement, along the edges of a range; minus infinity where
-/// there is none. Inside the range it is not less, being concave in F.
-double proven_least(const ForceRange& range, const ForceLimit& limit,
-                    const Interval& displacement) {
-  double least = INFINITY;
-  const Interval ff = limit.ff, fv = limit.fv, vv = limit.vv;
-  const Interval f = limit.f + displacement * limit.fx, v = limit.v + displacement * limit.vx,
-                 fixed = displacement * limit.x;
-  const auto at = [&](const Interval& speed, const Interval& force) {
-    return (ff * force + fv * speed + f) * force + (vv * speed + v) * speed + fixed;
-  };
+/// A piece of an edge of a range: between two displacements and two velocities the force is
+/// straight in either.
+struct EdgePatch {
+  Interval x[2], v[2], force[2][2];                 ///< force: at an x and a v
+  bool from_infinity = false, to_infinity = false;  ///< in v: on and on
+};
 
-  for (std::size_t k = 0; k + 1 < range.velocity.size(); ++k)
-    for (const bool upper : {false, true}) {
-      // On a straight piece a parabola in the way s from one end to the other.
-      const Interval v0 = range.velocity[k], v1 = range.velocity[k + 1];
-      const Interval f0 = upper ? range.greatest(k) : range.least(k),
-                     f1 = upper ? range.greatest(k + 1) : range.least(k + 1);
-      const Interval dv = v1 - v0, df = f1 - f0;
-      const Interval square = (ff * df + fv * dv) * df + vv * dv * dv;
-      const Interval start = at(v0, f0), end = at(v1, f1);
-      const Interval rise = (Interval(2) * ff * df + fv * dv) * f0 + fv * df * v0 + f * df +
-                            (Interval(2) * vv * v0 + v) * dv;
+/// Not above a parabola in the way s from 0 to 1 with these Bernstein coefficients.
+double parabola_least(const std::array<Interval, 3>& p, const EdgePatch& patch) {
+  const Interval square = p[0] - Interval(2) * p[1] + p[2], rise = Interval(2) * (p[1] - p[0]);
 
-      // Not below its lowest point, wherever that lies, nor below its Bernstein coefficients.
-      double low = -INFINITY;
-      if (square.low > 0) low = (start - rise * rise / (Interval(4) * square)).low;
-      const bool from_infinity = k == 0 && !range.ends,
-                 to_infinity = k + 2 == range.velocity.size() && !range.ends;
-      const double middle = (start + Interval(0.5) * rise).low;
-      if (!from_infinity && !to_infinity)
-        low = std::max(low, std::min({start.low, middle, end.low}));
+  // Not below its lowest point, wherever that lies, nor below its Bernstein coefficients.
+  double low = -INFINITY;
+  if (square.low > 0) low = (p[0] - rise * rise / (Interval(4) * square)).low;
+  if (!patch.from_infinity && !patch.to_infinity)
+    low = std::max(low, std::min({p[0].low, p[1].low, p[2].low}));
 
-      // A half line: a parabola that opens upwards and rises all the way.
-      const Interval rise_at_end = rise + Interval(2) * square;
-      if (to_infinity && square.low >= 0 && rise.low >= 0) low = std::max(low, start.low);
-      if (from_infinity && square.low >= 0 && rise_at_end.high <= 0) low = std::max(low, end.low);
-      least = std::min(least, low);
-      if (std::isnan(low)) return -INFINITY;
-    }
-  return least;
+  // A half line: a parabola that opens upwards and rises all the way.
+  const Interval rise_at_end = Interval(2) * (p[2] - p[1]);
+  if (patch.to_infinity && square.low >= 0 && rise.low >= 0) low = std::max(low, p[0].low);
+  if (patch.from_infinity && square.low >= 0 && rise_at_end.high <= 0)
+    low = std::max(low, p[2].low);
+  return std::isnan(low) ? -INFINITY : low;
 }
 
-/// The same at all displacements of a range: the limit is a straight line in them, so that those at
-/// the ends of each part decide.
+/// A limit over a patch, q = a F + b v + x x, where a and b are straight too: a parabola in either
+/// way.
+class LimitOnPatch {
+ public:
+  LimitOnPatch(const ForceLimit& limit, const EdgePatch& patch) : patch_(patch) {
+    for (int i = 0; i < 2; ++i) {
+      const Interval& x = patch.x[i];
+      for (int j = 0; j < 2; ++j) {
+        a_[i][j] = Interval(limit.ff) * patch.force[i][j] + Interval(limit.fv) * patch.v[j] +
+                   Interval(limit.fx) * x + limit.f;
+        b_[i][j] = Interval(limit.vv) * patch.v[j] + Interval(limit.vx) * x + limit.v;
+      }
+      along_x_[i] = Interval(limit.x) * x;
+    }
+  }
+
+  /// Its Bernstein coefficients along v: at the first displacement, the second, or the coefficient
+  /// between these (i = 0, k = 1).
+  std::array<Interval, 3> along_velocity(int i, int k) const {
+    const Interval fixed = half(along_x_[i] + along_x_[k]);
+    const auto with = [&](int j, int l) { return half(product(i, k, j, l) + product(k, i, j, l)); };
+    return {with(0, 0) + fixed, half(with(0, 1) + with(1, 0)) + fixed, with(1, 1) + fixed};
+  }
+
+ private:
+  static Interval half(const Interval& a) { return Interval(0.5) * a; }
+  Interval product(int i, int k, int j, int l) const {
+    return a_[i][j] * patch_.force[k][l] + b_[i][j] * patch_.v[l];
+  }
+
+  const EdgePatch& patch_;
+  Interval a_[2][2], b_[2][2], along_x_[2];
+};
+
+/// A lower bound of a limit on a patch. Where what lies between the displacements makes it less
+/// than the goal, by halves of the patch.
+double proven_least(const ForceLimit& limit, const EdgePatch& patch, double goal, int halvings) {
+  // At either displacement; between them it is not below the middle coefficients.
+  const LimitOnPatch on(limit, patch);
+  const bool flat = patch.x[0].low == patch.x[1].high;
+  const double first = parabola_least(on.along_velocity(0, 0), patch);
+  if (flat) return first;
+  const double ends = std::min(first, parabola_least(on.along_velocity(1, 1), patch));
+  const double least = std::min(ends, parabola_least(on.along_velocity(0, 1), patch));
+  if (least >= goal || least >= ends || halvings == 0) return least;
+
+  // The halves: any displacement between will do, but both must have the same.
+  const Interval middle = 0.5 * (patch.x[0].low + patch.x[1].high);
+  const Interval share = (middle - patch.x[0]) / (patch.x[1] - patch.x[0]);
+  EdgePatch lower = patch, upper = patch;
+  lower.x[1] = upper.x[0] = middle;
+  for (int j = 0; j < 2; ++j)
+    lower.force[1][j] = upper.force[0][j] =
+        patch.force[0][j] + share * (patch.force[1][j] - patch.force[0][j]);
+  return std::min(proven_least(limit, lower, goal, halvings - 1),
+                  proven_least(limit, upper, goal, halvings - 1));
+}
+
+/// Calls look(patch) for all of both edges of a range.
+template <class Look>
+void for_each_patch(const ForceRange& range, Look look) {
+  const auto along = [&](const auto& v, double from, double to, const auto& force) {
+    for (std::size_t k = 0; k + 1 < v.size(); ++k)
+      look(EdgePatch{{from, to},
+                     {v[k], v[k + 1]},
+                     {{force(0, k), force(0, k + 1)}, {force(1, k), force(1, k + 1)}},
+                     k == 0 && !range.ends,
+                     k + 2 == v.size() && !range.ends});
+  };
+  for (const bool upper : {false, true}) {
+    if (range.sides.empty())
+      along(range.velocity, 0, 0,
+            [&](std::size_t, std::size_t k) { return upper ? range.greatest(k) : range.least(k); });
+    for (const RangeSide& side : range.sides)
+      for (std::size_t p = 0; p + 1 < side.displacement.size(); ++p)
+        along(range.velocity, side.displacement[p], side.displacement[p + 1],
+              [&](std::size_t i, std::size_t k) {
+                return upper ? side.greatest(p + i, k) : side.least(p + i, k);
+              });
+  }
+}
+
+/// A lower bound of a limit on a range, at all displacements; minus infinity where there is none.
+/// On the edges: inside the range it is not less, being concave in F.
 double proven_least(const ForceRange& range, const ForceLimit& limit) {
   if (!(limit.ff <= 0)) return -INFINITY;
-  if (range.parts.empty()) {
-    if (limit.fx != 0 || limit.vx != 0 || limit.x != 0) return -INFINITY;
-    return proven_least(range, limit, 0);
-  }
+  if (range.sides.empty() && (limit.fx != 0 || limit.vx != 0 || limit.x != 0)) return -INFINITY;
+
+  // What it is at the corners, which nothing proves: what comes near that is good enough.
+  double corner = INFINITY;
+  for_each_patch(range, [&](const EdgePatch& patch) {
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        corner = std::min(corner, limit.at(patch.x[i].low, patch.v[j].low, patch.force[i][j].low));
+  });
+  constexpr double kNear = 1e-3;
+  const double goal = corner - kNear * std::abs(corner);
+
+  constexpr int kHalvings = 5;
   double least = INFINITY;
-  for (const ForceRange& part : range.parts)
-    for (const double end : {part.from, part.to})
-      least = std::min(least, proven_least(part, limit, end));
+  for_each_patch(range, [&](const EdgePatch& patch) {
+    least = std::min(least, proven_least(limit, patch, goal, kHalvings));
+  });
   return least;
 }
 
@@ -69,20 +142,29 @@ double proven_least(const ForceRange& range, const ForceLimit& limit) {
 template <std::size_t N>
 using Bernstein = std::array<Interval, N>;
 
-constexpr double binomial(std::size_t n, std::size_t k) {
-  double value = 1;
-  for (std::size_t i = 0; i < k; ++i)
-    value = value * static_cast<double>(n - i) / static_cast<double>(i + 1);
-  return value;
-}
+/// Rows of Pascal's triangle, up to the highest degree here.
+constexpr double kBinomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
 
 template <std::size_t N, std::size_t M>
 Bernstein<N + M - 1> product(const Bernstein<N>& a, const Bernstein<M>& b) {
   Bernstein<N + M - 1> out;
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j < M; ++j)
-      out[i + j] += Interval(binomial(N - 1, i) * binomial(M - 1, j)) * a[i] * b[j];
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = out[k] / Interval(binomial(N + M - 2, k));
+      out[i + j] += scaled(kBinomial[N - 1][i] * kBinomial[M - 1][j], a[i] * b[j]);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = shared(out[k], kBinomial[N + M - 2][k]);
+  return out;
+}
+
+/// The same polynomial with the coefficients of a higher degree.
+template <std::size_t N, std::size_t M>
+Bernstein<N> raised(const Bernstein<M>& p) {
+  constexpr std::size_t kMore = N - M;
+  Bernstein<N> out;
+  for (std::size_t k = 0; k < N; ++k) {
+    for (std::size_t i = k > kMore ? k - kMore : 0; i < M && i <= k; ++i)
+      out[k] += scaled(kBinomial[M - 1][i] * kBinomial[kMore][k - i], p[i]);
+    out[k] = shared(out[k], kBinomial[N - 1][k]);
+  }
   return out;
 }
 
@@ -90,12 +172,14 @@ Bernstein<N + M - 1> product(const Bernstein<N>& a, const Bernstein<M>& b) {
 template <std::size_t N, std::size_t M>
 void add(Bernstein<N>& sum, const Interval& factor, const Bernstein<M>& p) {
   static_assert(M <= N);
+  if (factor.low == 0 && factor.high == 0) return;  // as much of a car's motion is
   if constexpr (M == N) {
     for (std::size_t k = 0; k < N; ++k) sum[k] += factor * p[k];
+  } else if constexpr (M == 1) {
+    const Interval same = factor * p[0];
+    for (Interval& one : sum) one += same;
   } else {
-    Bernstein<N - M + 1> one;
-    one.fill(1);
-    add(sum, factor, product(p, one));
+    add(sum, factor, raised<N>(p));
   }
 }
 
@@ -258,6 +342,7 @@ bool Certificate::holds(const Cubic& value, double from, double to) const {
       for (std::size_t l = 0; l < 4; ++l) {
         if (j < 4) add(entry, motion_[l][j], value.raised_at(i, l));
         if (i < 4) add(entry, motion_[l][i], value.raised_at(l, j));
+        if (l < 2) continue;  // a push moves no place at once
         if (j == 4) add(entry, by_push_[l], product(value.at(i, l), push));
         if (i == 4) add(entry, by_push_[l], product(value.at(l, j), push));
       }

@@ -1,19 +1,16 @@
 #include "dashpot/suspension/bound/force_range.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
-
-double straight(const std::vector<double>& v, const std::vector<double>& f, std::size_t k,
-                double at) {
-  return f[k] + (f[k + 1] - f[k]) * (at - v[k]) / (v[k + 1] - v[k]);
-}
 
 std::size_t place_of(const std::vector<double>& velocity, double v) {
   const auto after = std::upper_bound(velocity.begin() + 1, velocity.end() - 1, v);
@@ -22,49 +19,52 @@ std::size_t place_of(const std::vector<double>& velocity, double v) {
 
 }  // namespace
 
-ForceRange::Piece ForceRange::piece(double v, double share) const noexcept {
-  const std::size_t k = place_of(velocity, v);
-  const auto mixed = [&](std::size_t n) { return soft[n] + share * (hard[n] - soft[n]); };
-  const double slope = (mixed(k + 1) - mixed(k)) / (velocity[k + 1] - velocity[k]);
-  return {slope, mixed(k) - slope * velocity[k]};
+ForceCurves::Piece ForceCurves::piece(double v, double share) const noexcept {
+  const std::size_t k = place_of(velocity_, v);
+  const auto mixed = [&](std::size_t n) {
+    const double soft = (*soft_[0])[n] + way_ * ((*soft_[1])[n] - (*soft_[0])[n]),
+                 hard = (*hard_[0])[n] + way_ * ((*hard_[1])[n] - (*hard_[0])[n]);
+    return soft + share * (hard - soft);
+  };
+  const double slope = (mixed(k + 1) - mixed(k)) / (velocity_[k + 1] - velocity_[k]);
+  return {slope, mixed(k) - slope * velocity_[k]};
 }
 
-double ForceRange::force(double v, double share) const noexcept {
+double ForceCurves::force(double v, double share) const noexcept {
   const Piece at = piece(v, share);
   return at.slope * v + at.offset;
 }
 
-double ForceRange::force_against(double free, double by_force, double share) const noexcept {
+double ForceCurves::force_against(double free, double by_force, double share) const noexcept {
   double v = free, force = 0;
   for (int k = 0; k < 8; ++k) {
     const Piece at = piece(v, share);
     force = (at.slope * free + at.offset) / (1 - at.slope * by_force);
     const double reached = free + by_force * force;
-    if (place_of(velocity, reached) == place_of(velocity, v)) break;
+    if (place_of(velocity_, reached) == place_of(velocity_, v)) break;
     v = reached;
   }
   return force;
 }
 
-double ForceRange::share(double v, double f) const noexcept {
-  const std::size_t k = place_of(velocity, v);
-  const double least = straight(velocity, soft, k, v),
-               wide = straight(velocity, hard, k, v) - least;
-  return wide == 0 ? 0 : std::clamp((f - least) / wide, 0.0, 1.0);
+double ForceCurves::share(double v, double f) const noexcept {
+  const double soft = force(v, 0), wide = force(v, 1) - soft;
+  return wide == 0 ? 0 : std::clamp((f - soft) / wide, 0.0, 1.0);
 }
 
-const ForceRange& ForceRange::at(double displacement) const noexcept {
-  for (const ForceRange& part : parts)
-    if (displacement <= part.to) return part;
-  return parts.empty() ? *this : parts.back();
+double ForceCurves::slope_by_displacement(double v, double share) const noexcept {
+  if (apart_ == 0) return 0;
+  const ForceCurves first(velocity_, *soft_[0], *hard_[0]), second(velocity_, *soft_[1], *hard_[1]);
+  return (second.force(v, share) - first.force(v, share)) / apart_;
 }
 
-double ForceRange::least(std::size_t node) const noexcept {
-  return std::min(soft[node], hard[node]);
-}
-
-double ForceRange::greatest(std::size_t node) const noexcept {
-  return std::max(soft[node], hard[node]);
+ForceCurves ForceRange::at(double displacement) const noexcept {
+  if (reached.empty()) return curves();
+  const RangeSide& side =
+      displacement <= reached.front().displacement.back() ? reached.front() : reached.back();
+  const std::size_t k = place_of(side.displacement, displacement);
+  const double from = side.displacement[k], apart = side.displacement[k + 1] - from;
+  return {velocity, side, k, std::clamp((displacement - from) / apart, 0.0, 1.0)};
 }
 
 ForceRange damping_range(double least, double greatest) {
@@ -82,63 +82,97 @@ bool has_width(const ForceRange& range) { return range.soft != range.hard; }
 
 namespace {
 
-/// What is looked at: at each velocity every current and some displacements.
+struct ForceEnds {
+  double least = INFINITY, greatest = -INFINITY;
+  void include(const ForceEnds& other) {
+    least = std::min(least, other.least);
+    greatest = std::max(greatest, other.greatest);
+  }
+};
+
+/// What is looked at: at each velocity every current and some displacements. Each velocity is
+/// looked at once.
 class ForceSamples {
  public:
   ForceSamples(const std::string& name, const StaticForce& force, const RangeLimits& limits)
       : name_(name), force_(force) {
-    constexpr int kCurrents = 32, kDisplacements = 12;  // the latter either way
+    constexpr int kCurrents = 32;
     for (int k = 0; k <= kCurrents; ++k)
       currents_.push_back(limits.current_min +
                           (limits.current_max - limits.current_min) * k / kCurrents);
-    if (limits.displacement == 0) {
-      displacements_ = {0};
-      return;
-    }
-    for (int k = 1; k <= kDisplacements; ++k)
-      for (const double side : {-1.0, 1.0})
-        displacements_.push_back(side * limits.displacement * k / kDisplacements);
-    for (const double beside : {-kBesideZero, 0.0, kBesideZero}) displacements_.push_back(beside);
+    const int steps = limits.displacement == 0 ? 0 : kDisplacements;
+    for (int k = 0; k <= steps; ++k)
+      distances_.push_back(steps == 0 ? 0 : limits.displacement * k / steps);
   }
 
-  struct Ends {
-    double least = INFINITY, greatest = -INFINITY;
-  };
-  /// Beside a spring, on one side of the displacements (-1 or 1, with what is close to 0) or on
-  /// both (0).
-  Ends at(double velocity, double stiffness, int side) const {
-    Ends ends;
-    const auto look = [&](double v) {
-      for (const double displacement : displacements_) {
-        if (displacement * side < 0) continue;
-        for (const double current : currents_) {
-          const double force = force_({displacement, v, current});
-          if (!std::isfinite(force))
-            throw Error(name_, "its force is not finite at " + format_number(v) + " m/s",
-                        "forces that a range can have");
-          ends.least = std::min(ends.least, force - stiffness * displacement);
-          ends.greatest = std::max(ends.greatest, force - stiffness * displacement);
-        }
-      }
-    };
+  static constexpr int kDisplacements = 12;  ///< either way
 
-    // At a jump, which dry friction has at rest, both of its sides.
-    look(velocity);
-    if (velocity == 0) {
-      look(-kBesideZero);
-      look(kBesideZero);
-    }
+  /// Over all currents at one of the distances from 0 and that way (-1 or 1), beside a spring: next
+  /// to 0 and at it, where laws jump.
+  ForceEnds at(double velocity, int side, std::size_t distance, double stiffness) const {
+    const ForceEnds found = looked_at(velocity)[side < 0 ? 0 : 1][distance];
+    const double spring = stiffness * side * distances_[distance];
+    return {found.least - spring, found.greatest - spring};
+  }
+  /// The same over all distances.
+  ForceEnds at(double velocity, int side, double stiffness) const {
+    ForceEnds ends;
+    for (std::size_t k = 0; k < distances_.size(); ++k)
+      ends.include(at(velocity, side, k, stiffness));
     return ends;
   }
 
-  bool has_displacement() const { return displacements_.size() > 1; }
-  double travel() const { return *std::max_element(displacements_.begin(), displacements_.end()); }
+  bool has_displacement() const { return distances_.size() > 1; }
+  const std::vector<double>& distances() const { return distances_; }
+  double travel() const { return distances_.back(); }
 
  private:
+  using Sides = std::array<std::vector<ForceEnds>, 2>;
+
+  const Sides& looked_at(double velocity) const {
+    const auto known = known_.find(velocity);
+    if (known != known_.end()) return known->second;
+
+    // At a jump, which dry friction has at rest, both of its sides.
+    std::vector<double> velocities{velocity};
+    if (velocity == 0) velocities = {-kBesideZero, 0, kBesideZero};
+    Sides found;
+    for (const int side : {-1, 1})
+      for (const double distance : distances_)
+        found[side < 0 ? 0 : 1].push_back(
+            over(has_displacement() && distance == 0 ? side * kBesideZero : side * distance,
+                 velocities));
+
+    // At 0 itself a force mostly lies between those on its sides, and a limit that holds for these
+    // holds for it. What lies beyond is of both.
+    ForceEnds hull = found[0].front();
+    hull.include(found[1].front());
+    const ForceEnds middle = over(0, velocities);
+    for (std::vector<ForceEnds>& side : found) {
+      if (middle.least < hull.least) side.front().least = middle.least;
+      if (middle.greatest > hull.greatest) side.front().greatest = middle.greatest;
+    }
+    return known_.emplace(velocity, std::move(found)).first->second;
+  }
+
+  ForceEnds over(double displacement, const std::vector<double>& velocities) const {
+    ForceEnds ends;
+    for (const double velocity : velocities)
+      for (const double current : currents_) {
+        const double force = force_({displacement, velocity, current});
+        if (!std::isfinite(force))
+          throw Error(name_, "its force is not finite at " + format_number(velocity) + " m/s",
+                      "forces that a range can have");
+        ends.include({force, force});
+      }
+    return ends;
+  }
+
   static constexpr double kBesideZero = 1e-9;  // m/s or m
   const std::string& name_;
   const StaticForce& force_;
-  std::vector<double> currents_, displacements_;
+  std::vector<double> currents_, distances_;
+  mutable std::map<double, Sides> known_;
 };
 
 /// The spring beside which the range is narrowest. Its width, summed over some velocities, is
@@ -148,7 +182,7 @@ double narrowest_stiffness(const ForceSamples& samples, const std::vector<double
     double sum = 0;
     for (std::size_t k = 0; k < velocity.size(); k += 8) {
       for (const int side : {-1, 1}) {
-        const ForceSamples::Ends ends = samples.at(velocity[k], stiffness, side);
+        const ForceEnds ends = samples.at(velocity[k], side, stiffness);
         sum += ends.greatest - ends.least;
       }
     }
@@ -169,37 +203,119 @@ double narrowest_stiffness(const ForceSamples& samples, const std::vector<double
   return width(best) < (1 - 1e-9) * width(0) ? best : 0;
 }
 
-/// Soft and hard from the samples on one side of the displacements, or on both.
-void set_forces(ForceRange& range, const ForceSamples& samples, int side) {
-  // Least and greatest force at each velocity.
-  std::vector<ForceSamples::Ends> ends;
-  for (const double v : range.velocity) ends.push_back(samples.at(v, range.stiffness, side));
+using EndsByVelocity = std::vector<ForceEnds>;
 
-  // Room for what lies between the velocities, where curves bend; a quarter more, because it too is
-  // looked at in some places only.
-  constexpr double kMore = 1.25;
-  constexpr double kBetween[] = {0.25, 0.5, 0.75};
-  std::vector<ForceSamples::Ends> room(ends.size(), {0, 0});
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-    for (const double share : kBetween) {
-      const auto mixed = [&](double a, double b) { return a + share * (b - a); };
-      const ForceSamples::Ends found =
-          samples.at(mixed(range.velocity[k], range.velocity[k + 1]), range.stiffness, side);
-      const double under = mixed(ends[k].least, ends[k + 1].least) - found.least,
-                   over = found.greatest - mixed(ends[k].greatest, ends[k + 1].greatest);
-      for (const std::size_t node : {k, k + 1}) {
-        room[node].least = std::max(room[node].least, kMore * under);
-        room[node].greatest = std::max(room[node].greatest, kMore * over);
-      }
-    }
-  range.soft.clear();
-  range.hard.clear();
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double least = ends[k].least - room[k].least,
-                 greatest = ends[k].greatest + room[k].greatest;
-    range.soft.push_back(range.velocity[k] < 0 ? greatest : least);
-    range.hard.push_back(range.velocity[k] < 0 ? least : greatest);
+void add_curves(const std::vector<double>& velocity, const EndsByVelocity& ends,
+                std::vector<double>& soft, std::vector<double>& hard) {
+  for (std::size_t k = 0; k < velocity.size(); ++k) {
+    soft.push_back(velocity[k] < 0 ? ends[k].greatest : ends[k].least);
+    hard.push_back(velocity[k] < 0 ? ends[k].least : ends[k].greatest);
   }
+}
+
+/// Least and greatest forces on one side, or where there is no displacement, at the velocities of a
+/// table and some of the samples' distances: straight between both.
+class EdgeTable {
+ public:
+  EdgeTable(const ForceSamples& samples, const std::vector<double>& velocity, double stiffness,
+            int side, std::vector<std::size_t> places)
+      : samples_(samples),
+        velocity_(velocity),
+        stiffness_(stiffness),
+        side_(side),
+        places_(std::move(places)) {
+    for (const std::size_t place : places_) {
+      ends_.emplace_back();
+      for (const double v : velocity_) ends_.back().push_back(found(v, place));
+    }
+  }
+
+  /// Room for what lies between, where curves bend; a quarter more, because it too is looked at in
+  /// some places only.
+  void make_room() {
+    std::vector<ForceEnds> room(velocity_.size(), {0, 0});
+    for (std::size_t distance = 0; distance <= places_.back(); ++distance)
+      for (std::size_t k = 0; k + 1 < velocity_.size(); ++k)
+        for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) add_room(room, distance, k, share);
+    for (EndsByVelocity& ends : ends_)
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        ends[k].least -= room[k].least;
+        ends[k].greatest += room[k].greatest;
+      }
+  }
+
+  const std::vector<EndsByVelocity>& ends() const { return ends_; }
+
+  RangeSide side() const {
+    RangeSide out;
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      out.displacement.push_back(side_ * samples_.distances()[places_[k]]);
+      add_curves(velocity_, ends_[k], out.soft.emplace_back(), out.hard.emplace_back());
+    }
+    if (side_ > 0) return out;
+    for (auto* const list : {&out.soft, &out.hard}) std::ranges::reverse(*list);
+    std::ranges::reverse(out.displacement);
+    return out;
+  }
+
+ private:
+  ForceEnds found(double v, std::size_t distance) const {
+    return samples_.at(v, side_, distance, stiffness_);
+  }
+
+  /// What is missed at a distance and between two velocities of the table.
+  void add_room(std::vector<ForceEnds>& room, std::size_t distance, std::size_t k,
+                double share) const {
+    // The table there.
+    const std::size_t last = places_.size() - 1;
+    std::size_t p = 0;
+    while (p + 1 < last && places_[p + 1] < distance) ++p;
+    const std::size_t q = std::min(p + 1, last);
+    const double from = samples_.distances()[places_[p]], to = samples_.distances()[places_[q]];
+    const double out = q == p ? 0 : (samples_.distances()[distance] - from) / (to - from);
+    const auto mixed = [](double a, double b, double way) { return a + way * (b - a); };
+    const auto table = [&](double ForceEnds::* end) {
+      return mixed(mixed(ends_[p][k].*end, ends_[q][k].*end, out),
+                   mixed(ends_[p][k + 1].*end, ends_[q][k + 1].*end, out), share);
+    };
+
+    // The damper there.
+    constexpr double kMore = 1.25;
+    const ForceEnds is = found(mixed(velocity_[k], velocity_[k + 1], share), distance);
+    const double under = table(&ForceEnds::least) - is.least,
+                 over = is.greatest - table(&ForceEnds::greatest);
+    for (const std::size_t node : {k, k + 1}) {
+      room[node].least = std::max(room[node].least, kMore * under);
+      room[node].greatest = std::max(room[node].greatest, kMore * over);
+    }
+  }
+
+  const ForceSamples& samples_;
+  const std::vector<double>& velocity_;
+  double stiffness_;
+  int side_;
+  std::vector<std::size_t> places_;
+  std::vector<EndsByVelocity> ends_;  ///< by place
+};
+
+/// A table for either side of the displacements, close and without room, and wide and with it; and
+/// one that is as wide as all of these.
+void set_sides(ForceRange& range, const ForceSamples& samples) {
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < samples.distances().size(); ++k) all.push_back(k);
+  EndsByVelocity widest(range.velocity.size());
+  for (const int side : {-1, 1}) {
+    range.reached.push_back(EdgeTable(samples, range.velocity, range.stiffness, side, all).side());
+
+    // What is proven rests on three places of either side: rides are between the first two.
+    EdgeTable table(samples, range.velocity, range.stiffness, side,
+                    {0, all.back() / 3, all.back()});
+    table.make_room();
+    for (const EndsByVelocity& ends : table.ends())
+      for (std::size_t k = 0; k < ends.size(); ++k) widest[k].include(ends[k]);
+    range.sides.push_back(table.side());
+  }
+  add_curves(range.velocity, widest, range.soft, range.hard);
 }
 
 /// A range of damping, where all forces are in proportion to the velocity.
@@ -246,22 +362,13 @@ ForceRange force_range(const std::string& name, const StaticForce& force,
     range.stiffness = narrowest_stiffness(samples, range.velocity);
   }
 
-  // One table, or one for either side of the displacements and one for both.
-  set_forces(range, samples, 0);
+  // By displacement, or one table for all.
   if (samples.has_displacement()) {
-    ForceRange inner = range, outer = range;
-    set_forces(inner, samples, -1);
-    set_forces(outer, samples, 1);
-    inner.from = -limits.displacement;
-    outer.to = limits.displacement;
-    inner.to = outer.from = 0;
-    for (std::size_t k = 0; k < range.velocity.size(); ++k) {
-      range.soft[k] = range.velocity[k] < 0 ? std::max(inner.soft[k], outer.soft[k])
-                                            : std::min(inner.soft[k], outer.soft[k]);
-      range.hard[k] = range.velocity[k] < 0 ? std::min(inner.hard[k], outer.hard[k])
-                                            : std::max(inner.hard[k], outer.hard[k]);
-    }
-    range.parts = {std::move(inner), std::move(outer)};
+    set_sides(range, samples);
+  } else {
+    EdgeTable table(samples, range.velocity, 0, 1, {0});
+    table.make_room();
+    add_curves(range.velocity, table.ends().front(), range.soft, range.hard);
   }
 
   // The damper itself reaches less: its least and greatest force at one displacement.
@@ -348,7 +455,8 @@ std::vector<ForceLimit> sector_limits(const ForceRange& range) {
         include(range.velocity[k], range.force(range.velocity[k], share));
     if (!range.ends)  // far outside of the table its last pieces decide
       for (const double v : {2 * range.velocity[0] - 1, 2 * range.velocity[last] + 1})
-        for (const double share : {0.0, 1.0}) include(v, rest + range.piece(v, share).slope * v);
+        for (const double share : {0.0, 1.0})
+          include(v, rest + range.curves().piece(v, share).slope * v);
     if (!std::isfinite(least)) continue;
 
     // A limit that some constant makes hold all along the range, and that is not known yet.
@@ -371,18 +479,23 @@ std::vector<ForceLimit> sector_limits(const ForceRange& range) {
 }
 
 std::vector<RangeCorner> corners(const ForceRange& range) {
+  constexpr std::size_t kEvery = 4;
   std::vector<RangeCorner> found;
-  const auto add = [&](const ForceRange& part, double displacement) {
-    for (std::size_t k = 0; k < part.velocity.size(); k += 4) {
-      found.push_back({displacement, part.velocity[k], part.least(k)});
-      found.push_back({displacement, part.velocity[k], part.greatest(k)});
+  const auto add = [&](double displacement, const auto& least, const auto& greatest) {
+    for (std::size_t k = 0; k < range.velocity.size(); k += kEvery) {
+      found.push_back({displacement, range.velocity[k], least(k)});
+      found.push_back({displacement, range.velocity[k], greatest(k)});
     }
   };
-  if (range.parts.empty()) add(range, 0);
-  for (const ForceRange& part : range.parts) {
-    add(part, part.from);
-    add(part, part.to);
-  }
+  if (range.sides.empty())
+    add(
+        0, [&](std::size_t k) { return range.least(k); },
+        [&](std::size_t k) { return range.greatest(k); });
+  for (const RangeSide& side : range.sides)
+    for (std::size_t p = 0; p < side.displacement.size(); ++p)
+      add(
+          side.displacement[p], [&](std::size_t k) { return side.least(p, k); },
+          [&](std::size_t k) { return side.greatest(p, k); });
   return found;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <span>
@@ -9,28 +10,35 @@
 
 namespace dashpot {
 
-/// The forces that a semi-active damper can give at a velocity: any between its softest and its
-/// hardest, and beside them a spring's. Straight between the velocities of the table.
-struct ForceRange {
-  std::vector<double> velocity;    ///< m/s, ascending
-  std::vector<double> soft, hard;  ///< N, positive when they resist extension
-  /// N/m of displacement, beside soft and hard: what a law's dependence on it has of a spring. The
-  /// rest of that dependence makes soft and hard lie further apart.
-  double stiffness = 0;
-  double travel = std::numeric_limits<double>::infinity();  ///< m either way, that this holds for
-  /// Narrower ranges for some displacements each, of the same velocities, which together are as
-  /// wide as this one. Empty: it holds for all.
-  std::vector<ForceRange> parts;
-  double from = -std::numeric_limits<double>::infinity(),
-         to = std::numeric_limits<double>::infinity();  ///< m, that a part is of
-  /// Whether it is known up to the ends of the table only. Otherwise it goes straight on outside.
-  bool ends = false;
-  /// Least and greatest force, N, of the damper itself at a displacement, m, and a velocity, m/s;
-  /// within the range. Empty: those of the range.
-  std::function<std::pair<double, double>(double, double)> reach;
+/// A range on one side of the displacements: soft and hard at some of them, N by velocity, and
+/// straight between these.
+struct RangeSide {
+  std::vector<double> displacement;  ///< m, ascending, two at least
+  std::vector<std::vector<double>> soft, hard;
 
-  /// The part for a displacement, or this.
-  const ForceRange& at(double displacement) const noexcept;
+  double least(std::size_t place, std::size_t node) const noexcept {
+    return std::min(soft[place][node], hard[place][node]);
+  }
+  double greatest(std::size_t place, std::size_t node) const noexcept {
+    return std::max(soft[place][node], hard[place][node]);
+  }
+};
+
+/// Soft and hard at one displacement, m, or between two neighbouring ones: what a range is there.
+/// Looks into the range, which must stay.
+class ForceCurves {
+ public:
+  ForceCurves(const std::vector<double>& velocity, const std::vector<double>& soft,
+              const std::vector<double>& hard)
+      : velocity_(velocity), soft_{&soft, &soft}, hard_{&hard, &hard} {}
+  /// A share of the way from the k-th displacement of a side to the next one.
+  ForceCurves(const std::vector<double>& velocity, const RangeSide& side, std::size_t k, double way)
+      : velocity_(velocity),
+        soft_{&side.soft[k], &side.soft[k + 1]},
+        hard_{&side.hard[k], &side.hard[k + 1]},
+        way_(way),
+        apart_(side.displacement[k + 1] - side.displacement[k]) {}
+
   /// soft + share (hard - soft), N; share 0 ... 1.
   double force(double velocity, double share) const noexcept;
   /// The same where the force itself slows the motion: the force at velocity `free` + by_force
@@ -42,11 +50,44 @@ struct ForceRange {
     double slope, offset;  ///< force = slope velocity + offset
   };
   Piece piece(double velocity, double share) const noexcept;
+  /// N/m, how a force at a share changes with the displacement.
+  double slope_by_displacement(double velocity, double share) const noexcept;
+
+ private:
+  const std::vector<double>& velocity_;
+  const std::vector<double>*soft_[2], *hard_[2];
+  double way_ = 0, apart_ = 0;
+};
+
+/// The forces that a semi-active damper can give at a velocity: any between its softest and its
+/// hardest, and beside them a spring's. Straight between the velocities of the table.
+struct ForceRange {
+  std::vector<double> velocity;    ///< m/s, ascending
+  std::vector<double> soft, hard;  ///< N, positive when they resist extension
+  /// N/m of displacement, beside soft and hard: what a law's dependence on it has of a spring.
+  double stiffness = 0;
+  double travel = std::numeric_limits<double>::infinity();  ///< m either way, that this holds for
+  /// The range by displacement, compression and extension, of the same velocities: soft and hard
+  /// are as wide as all of it. Empty: it holds for all displacements.
+  std::vector<RangeSide> sides;
+  /// The same as it was found, at displacements that are closer and without any room: for a
+  /// search.
+  std::vector<RangeSide> reached;
+  /// Whether it is known up to the ends of the table only. Otherwise it goes straight on outside.
+  bool ends = false;
+  /// Least and greatest force, N, of the damper itself at a displacement, m, and a velocity, m/s;
+  /// within the range. Empty: those of the range.
+  std::function<std::pair<double, double>(double, double)> reach;
+
+  /// What is reached at a displacement, as near as a table has it.
+  ForceCurves at(double displacement) const noexcept;
+  ForceCurves curves() const noexcept { return {velocity, soft, hard}; }
+  double force(double v, double share) const noexcept { return curves().force(v, share); }
 
   /// The lower and the upper force at each velocity of the table: between these and straight lines
   /// between them lie all forces, also where soft and hard change places.
-  double least(std::size_t node) const noexcept;
-  double greatest(std::size_t node) const noexcept;
+  double least(std::size_t node) const noexcept { return std::min(soft[node], hard[node]); }
+  double greatest(std::size_t node) const noexcept { return std::max(soft[node], hard[node]); }
 };
 
 /// Any damping in between, N*s/m. Throws Error where least > greatest.

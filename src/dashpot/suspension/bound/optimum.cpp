@@ -24,8 +24,8 @@ double at(const SmallMatrix<1, 6>& row, const State& z) {
 }
 
 /// The forces at the displacement that the damper has in the middle of a cell.
-const ForceRange& forces_at(const AffineCar& now, const ForceRange& range, const State& z) {
-  return range.parts.empty() ? range : range.at(at(now.displacement, z));
+ForceCurves forces_at(const AffineCar& now, const ForceRange& range, const State& z) {
+  return range.at(at(now.displacement, z));
 }
 
 /// Along cells under forces as choose(cell, state, softest, hardest) asks for, clipped to the
@@ -39,7 +39,7 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
     // The force that is chosen, clipped to what the damper can give at this speed.
     const AffineCar now = car.over(cell);
     const double free = at(now.speed, z), by_force = now.speed(0, kForcePlace);
-    const ForceRange& forces = forces_at(now, range, z);
+    const ForceCurves forces = forces_at(now, range, z);
     const double soft = forces.force_against(free, by_force, 0),
                  hard = forces.force_against(free, by_force, 1);
     const double force =
@@ -81,17 +81,21 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
     const double free = at(now.speed, z), by_force = now.speed(0, kForcePlace);
 
     const double wanted = (law * z)(0, 0);
-    const ForceRange& forces = forces_at(now, range, z);
+    const ForceCurves forces = forces_at(now, range, z);
     const double soft = forces.force_against(free, by_force, 0),
                  hard = forces.force_against(free, by_force, 1);
     const bool outside = wanted < std::min(soft, hard) || wanted > std::max(soft, hard);
     if (outside) {
       const bool is_hard = std::abs(wanted - hard) < std::abs(wanted - soft);
       const double force = is_hard ? hard : soft;
-      const auto [slope, offset] = forces.piece(free + by_force * force, is_hard ? 1 : 0);
+      const double share = is_hard ? 1 : 0, v = free + by_force * force;
+      const auto [slope, offset] = forces.piece(v, share);
+      const double by_place = forces.slope_by_displacement(v, share),
+                   fixed = offset - by_place * at(now.displacement, z);
       for (std::size_t j = 0; j < 5; ++j)
-        law(0, j) =
-            (slope * now.speed(0, j) + (j == kOnePlace ? offset : 0)) / (1 - slope * by_force);
+        law(0, j) = (slope * now.speed(0, j) + by_place * now.displacement(0, j) +
+                     (j == kOnePlace ? fixed : 0)) /
+                    (1 - slope * by_force);
     }
 
     // The value one cell earlier, under that law.

@@ -19,12 +19,16 @@ std::unique_ptr<DamperModel> RangeDamper::with_offset(double newton) const {
       const auto [least, greatest] = reach(displacement, velocity);
       return std::pair{least + newton, greatest + newton};
     };
-  const auto move = [newton](ForceRange& range) {
-    for (double& force : range.soft) force += newton;
-    for (double& force : range.hard) force += newton;
+  const auto move = [newton](std::vector<double>& forces) {
+    for (double& force : forces) force += newton;
   };
-  move(moved);
-  for (ForceRange& part : moved.parts) move(part);
+  move(moved.soft);
+  move(moved.hard);
+  for (auto* const sides : {&moved.sides, &moved.reached})
+    for (RangeSide& side : *sides) {
+      std::ranges::for_each(side.soft, move);
+      std::ranges::for_each(side.hard, move);
+    }
   return std::make_unique<RangeDamper>(std::move(moved));
 }
 

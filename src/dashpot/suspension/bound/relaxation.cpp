@@ -138,7 +138,7 @@ class FreeFamily final : public LimitFamily {
     const double damping = force / speed;
     unit_ = {curvature, curvature * damping, curvature * damping * damping, curvature * force,
              curvature * damping * force};
-    if (range.parts.empty()) return;
+    if (range.sides.empty()) return;
     const double spring = force / (0.2 * range.travel);
     for (const double unit : {spring, spring * damping, spring * force})
       unit_.push_back(curvature * unit);
@@ -304,7 +304,7 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   // Units: the weight that the index itself gives a force.
   const double by_force = car.at(0, 0).acceleration(0, kForcePlace);
   const double curvature = index.comfort * by_force * by_force + index.holding;
-  Dual dual(car, index, !range.parts.empty());
+  Dual dual(car, index, !range.sides.empty());
 
   // Sectors that stay, then over shorter and shorter blocks, towards the edge.
   const SectorFamily sectors(sector_limits(range));
@@ -312,7 +312,7 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   Climb climb{car, dual, options.size, options.iterations};
   if (!climb.start(sectors, curvature)) return {};
   for (const double height : {1.0, 0.1, 0.01}) climb.up(sectors, height);
-  Relaxation found{.best = {}, .constant = course_of(sectors, climb.x, climb.block)};
+  Relaxation found{.path = {}, .constant = course_of(sectors, climb.x, climb.block)};
   for (const std::size_t block : {16, 4}) {
     climb.set_block(sectors, block * options.block);
     for (const double height : {0.3, 0.1}) climb.up(sectors, height);
@@ -321,8 +321,10 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   // Where the range has no end, sectors are all there is.
   if (!range.ends) {
     climb.set_block(sectors, options.block);
-    for (const double height : {0.1, 0.03, 0.01, 0.003}) climb.up(sectors, height);
-    found.best = course_of(sectors, climb.x, climb.block);
+    for (const double height : {0.1, 0.03, 0.01, 0.003}) {
+      climb.up(sectors, height);
+      found.path.push_back(course_of(sectors, climb.x, climb.block));
+    }
     return found;
   }
 
@@ -338,6 +340,7 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
     constexpr double kSmoothness = 1;
     free.set_smoothness(kSmoothness * height * options.size);
     climb.up(free, height);
+    found.path.push_back(course_of(free, climb.x, climb.block));
   };
   for (const double height : {0.3, 0.1}) up(height);
   for (const std::size_t block : {2, 1}) {
@@ -345,7 +348,6 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
     for (const double height : {0.1, 0.03}) up(height);
   }
   for (const double height : {0.01, 0.003}) up(height);
-  found.best = course_of(free, climb.x, climb.block);
   return found;
 }
 
@@ -361,16 +363,19 @@ LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio)
 }
 
 void tame(LimitCourse& course, double factor) {
-  std::vector<double> sizes;
-  for (const ForceLimit& limit : course.limits) sizes.push_back(std::abs(limit.ff));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  const double greatest = factor * *middle;
-  for (ForceLimit& limit : course.limits) {
-    const double size = std::abs(limit.ff);
-    if (!(size > greatest)) continue;
-    for (const auto one : kCoefficients) limit.*one *= greatest / size;
+  std::vector<double> shares(course.limits.size(), 1);
+  for (const auto measure : {&ForceLimit::ff, &ForceLimit::one}) {
+    std::vector<double> sizes;
+    for (const ForceLimit& limit : course.limits) sizes.push_back(std::abs(limit.*measure));
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const double greatest = factor * *middle;
+    for (std::size_t k = 0; k < shares.size(); ++k)
+      if (const double size = std::abs(course.limits[k].*measure); size > greatest)
+        shares[k] = std::min(shares[k], greatest / size);
   }
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    for (const auto one : kCoefficients) course.limits[k].*one *= shares[k];
 }
 
 LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b, double size_of_b) {

@@ -14,11 +14,12 @@ struct RelaxationOptions {
   double size = 1;        ///< of the index on this road
 };
 
-/// A course of limits whose minimum is high, on a car whose forces are held over a cell, and one of
-/// limits that stay, whose minimum is safe from the edge where there is none. Both without the
-/// constants, which certified_minimum() finds.
+/// Courses of limits on a car whose forces are held over a cell, each with a higher minimum than
+/// the one before, and nearer to the edge where there is none; and one of limits that stay. All
+/// without the constants, which certified_minimum() finds.
 struct Relaxation {
-  LimitCourse best, constant;
+  std::vector<LimitCourse> path;
+  LimitCourse constant;
 };
 Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                  const RelaxationOptions& options);
@@ -27,8 +28,9 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
 /// one of before.
 LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio);
 
-/// Makes limits smaller, as any positive factor may, whose curvature is above so many times the
-/// middle one: a climb drives them up where they matter to nothing, as on a car that stands.
+/// Makes limits smaller, as any positive factor may, whose curvature or constant is above so many
+/// times the middle one: a climb drives them up where they matter to nothing, as on a car that
+/// stands.
 void tame(LimitCourse& course, double factor);
 
 /// share of a, the rest of b; block by block, b having one block only.

@@ -13,7 +13,7 @@ class StorageFunction {
   StorageFunction(const SampledPlant& car, const RideIndex& index, Certificate& certificate,
                   const MotionSquares& motion, double size)
       : car_(car), index_(index), certificate_(certificate) {
-    constexpr double kRoom = 1e-7;
+    constexpr double kRoom = 3e-5;
     for (std::size_t i = 0; i < motion.size(); ++i) room_(i, i) = kRoom * size / motion[i];
     room_(kOnePlace, kOnePlace) = kRoom * size;
   }

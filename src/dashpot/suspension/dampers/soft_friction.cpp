@@ -60,7 +60,8 @@ class Softened final : public DamperModel {
   double reach_;
 };
 
-/// Whether the force jumps where that input passes 0.
+/// Whether the force jumps where that input passes 0: it changes over next to no way, and over a
+/// hundredth of that no less, as a stiff spring's would.
 bool jumps(const DamperModel& model, double DamperInput::* what, double current_min,
            double current_max) {
   constexpr double kNearly = 1e-9, kUsual = 0.1;  // m/s, m
@@ -74,7 +75,10 @@ bool jumps(const DamperModel& model, double DamperInput::* what, double current_
       from.*input = -value;
       return std::abs(model.force(to, state) - model.force(from, state));
     };
-    if (rise(what, kNearly) > kNoticed * rise(&DamperInput::velocity, kUsual)) return true;
+    const double near = rise(what, kNearly);
+    if (near > kNoticed * rise(&DamperInput::velocity, kUsual) &&
+        rise(what, 0.01 * kNearly) > 0.5 * near)
+      return true;
   }
   return false;
 }

@@ -60,6 +60,15 @@ LawModel::LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, 
     for (std::size_t power = 0; power < parameters_.coefficients[k].size(); ++power)
       by_power_[power][k] = parameters_.coefficients[k][power];
   }
+
+  // Explicit steps of a vehicle's integrator, which go down to a 64th of a millisecond, are
+  // unstable for a rate above that, and its implicit ones see a force of the difference of two near
+  // states.
+  constexpr double kFastest = 1e5;  // 1/s
+  if (!law.step || !law.rate) return;
+  Params p;
+  parameters_at(0, p.data());
+  steps_itself_ = law.rate(p.data(), 0) > kFastest;
 }
 
 LawModel LawModel::constant(const Law& law, const std::vector<double>& parameters) {

@@ -38,7 +38,8 @@ class LawModel final : public DamperModel {
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::size_t run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
                   Response to) const noexcept override;
-  bool flows() const noexcept override { return true; }
+  /// Not where a law that steps itself is stiffer than a vehicle's integrator can follow.
+  bool flows() const noexcept override { return !steps_itself_; }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;
   const LawModel* law_inside() const noexcept override { return this; }
@@ -76,6 +77,7 @@ class LawModel final : public DamperModel {
   DriveUnit drive_unit_;
   double lag_rate_;
   bool follows_current_ = false;  ///< some parameter depends on the current
+  bool steps_itself_ = false;
   /// The polynomials' coefficients by power of the current, padded with zeros: one straight loop
   /// evaluates them.
   std::array<std::array<double, kMaxParams>, 4> by_power_{};
