@@ -58,18 +58,18 @@ InPlantSetup true_car(InPlantSetup setup) {
   return setup;
 }
 
-/// A parameter set by its name, or "asymmetric": kwok2006 that resists extension far more than
-/// compression, as dampers of cars do, driven by volts.
+/// A parameter set by its name, or "asymmetric": spencer1997 that resists extension more than
+/// compression, as dampers of cars do.
 std::unique_ptr<LawModel> true_damper(const std::string& name) {
   if (name != "asymmetric") return std::make_unique<LawModel>(load_parameters(name));
-  const LawModel alike = load_parameters("kwok2006");
+  const LawModel alike = load_parameters("spencer1997");
   Dependence parameters = alike.parameters();
-  for (const double rebound : {350.0, 900.0, 0.05}) {  // N, N*s/m, m/s
+  for (const double rebound : {200.0, 700.0, 0.05}) {  // N, N*s/m, m/s
     parameters.forms.push_back(Form::Constant);
     parameters.coefficients.push_back({rebound});
   }
   return std::make_unique<LawModel>(with_side(alike.law()), std::move(parameters), DriveUnit::Volt,
-                                    0);
+                                    alike.lag_rate());
 }
 
 PlantRecording as_recording(const VirtualRide& ride) {

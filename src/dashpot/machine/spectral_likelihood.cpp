@@ -84,34 +84,130 @@ void solve_lower(const Complex* factor, std::size_t n, Complex* x, std::size_t s
   }
 }
 
-/// What a sensor shows of a motion of the coordinates at one frequency, and of the input or the
-/// force that made it.
-struct Seen {
-  const DrivenPlant& plant;
-  double w;
+/// The plant at one frequency, with the spring and the dashpot that stand for the damper.
+class PlantAtLine {
+ public:
+  PlantAtLine(const DrivenPlant& plant, const InPlantSetup& setup,
+              const SpectralLikelihood::Force& force)
+      : plant_(plant), setup_(setup), force_(force), late_(setup.sensors.size()) {}
 
-  Complex of(const PlantSensorPlace& sensor, const Complex* q, double carried, double on_ground,
-             Complex force, Complex admittance) const {
-    const Complex iw(0, w);
+  void move_to(double w) {
+    const std::size_t n = plant_.size();
+    w_ = w;
+    admittance_ = force_.stiffness + iw() * force_.damping;
+    matrix_.resize(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < n; ++k)
+        matrix_[i * n + k] = plant_.stiffness()[i * n + k] + iw() * plant_.damping()[i * n + k] +
+                             plant_.by_force()[i] * admittance_ * plant_.deflection()[k];
+      matrix_[i * n + i] -= w * w;
+    }
+    invert(matrix_, inverse_, n);
+    for (std::size_t s = 0; s < late_.size(); ++s)
+      late_[s] = std::exp(-iw() * setup_.sensors[s].delay);
+  }
+  double w() const { return w_; }
+  Complex iw() const { return {0, w_}; }
+
+  /// What the sensors show of the damper's force, of an input, of a push at a coordinate.
+  void of_force(std::vector<Complex>& shows) {
+    respond([&](std::size_t k) { return -plant_.by_force()[k]; }, nullptr, 0, 1, shows);
+  }
+  void of_input(std::size_t u, std::vector<Complex>& shows) {
+    const double ground = plant_.on_ground()[u];
+    respond(
+        [&](std::size_t k) {
+          return plant_.by_value()[u][k] + iw() * plant_.by_rate()[u][k] +
+                 plant_.by_force()[k] * admittance_ * ground;
+        },
+        plant_.carried()[u].data(), ground, 0, shows);
+  }
+  void of_push(std::size_t at, std::vector<Complex>& shows) {
+    respond([&](std::size_t k) { return k == at ? 1.0 : 0.0; }, nullptr, 0, 0, shows);
+  }
+
+ private:
+  template <class Push>
+  void respond(const Push& push, const double* carried, double on_ground, double own_force,
+               std::vector<Complex>& shows) {
+    const std::size_t n = plant_.size();
+    q_.assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k) q_[i] += inverse_[i * n + k] * push(k);
     Complex way = -on_ground;
-    for (std::size_t k = 0; k < plant.size(); ++k) way += plant.deflection()[k] * q[k];
-    switch (sensor.quantity) {
+    for (std::size_t k = 0; k < n; ++k) way += plant_.deflection()[k] * q_[k];
+    for (std::size_t s = 0; s < shows.size(); ++s) {
+      const PlantSensorPlace& place = setup_.sensors[s].place;
+      const double with = carried ? carried[place.coordinate] : 0;
+      shows[s] = late_[s] * seen(place, way, with, own_force);
+    }
+  }
+  Complex seen(const PlantSensorPlace& place, Complex way, double carried, double force) const {
+    switch (place.quantity) {
       case PlantQuantity::Displacement:
-        return q[sensor.coordinate];
+        return q_[place.coordinate];
       case PlantQuantity::Velocity:
-        return iw * q[sensor.coordinate];
+        return iw() * q_[place.coordinate];
       case PlantQuantity::Acceleration:
-        return -w * w * q[sensor.coordinate] + carried;
+        return -w_ * w_ * q_[place.coordinate] + carried;
       case PlantQuantity::Deflection:
         return way;
       case PlantQuantity::DeflectionVelocity:
-        return iw * way;
+        return iw() * way;
       case PlantQuantity::DamperForce:
-        return force + admittance * way;
+        return force + admittance_ * way;
     }
     return 0;
   }
+
+  const DrivenPlant& plant_;
+  const InPlantSetup& setup_;
+  const SpectralLikelihood::Force& force_;
+  double w_ = 0;
+  Complex admittance_;
+  std::vector<Complex> matrix_, inverse_, late_, q_;
 };
+
+/// Adds noise of this density, which the sensors show so, to their covariance.
+void add_noise(const std::vector<Complex>& shows, double density, Complex* covariance) {
+  const std::size_t m = shows.size();
+  for (std::size_t s = 0; s < m; ++s)
+    for (std::size_t k = 0; k <= s; ++k)
+      covariance[s * m + k] += density * shows[s] * std::conj(shows[k]);
+}
+
+/// Two-sided density of the law's error, N^2*s.
+double error_density(const ObserverNoise& noise, double w) {
+  double density = 0;
+  for (const ForceError& error : noise.force)
+    density +=
+        2 * error.deviation * error.deviation * error.memory / (1 + std::pow(w * error.memory, 2));
+  return density;
+}
+
+/// Likewise of a road's height, m^2*s.
+double road_density_over_time(double roughness, double speed, double w) {
+  const double white = 0.5 * roughness * std::pow(kTurn * kReferenceWaveNumber, 2) * speed;
+  return white / (w * w + std::pow(kTurn * kLongest * speed, 2));
+}
+
+/// The columns of the states at both ends, two per coordinate, and of what each sensor makes of its
+/// own, of `ends` columns in all.
+void put_end_columns(PlantAtLine& plant, std::size_t coordinates, std::size_t ends,
+                     std::vector<Complex>& shows, Complex* column) {
+  const std::size_t m = shows.size();
+  for (std::size_t j = 0; j < coordinates; ++j) {
+    plant.of_push(j, shows);
+    for (std::size_t s = 0; s < m; ++s) {
+      column[s * ends + 2 * j] = shows[s];
+      column[s * ends + 2 * j + 1] = plant.iw() * shows[s];
+    }
+  }
+  for (std::size_t s = 0; s < m; ++s) {
+    column[s * ends + 2 * coordinates + 2 * s] = 1;
+    column[s * ends + 2 * coordinates + 2 * s + 1] = plant.iw();
+  }
+}
 
 /// Least squares of real coefficients over whitened lines, and the lines without what they explain.
 class EndTerms {
@@ -333,62 +429,28 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
   const InPlantSetup setup = setup_at(x);
   const ObserverNoise uncertain = noise(x);
   const DrivenPlant plant(make_plant(*setup.model, setup.known), setup.strut, inputs_);
-  const std::size_t n = plant.size(), m = sensors(), lines = ride.end - ride.first;
   const auto roads = static_cast<std::size_t>(std::ranges::count_if(
       setup.inputs, [](const PlantInputChannel& one) { return one.road.has_value(); }));
-  const std::size_t ends = 2 * n + 2 * m + roads;
+  const std::size_t n = plant.size(), m = sensors(), lines = ride.end - ride.first,
+                    ends = 2 * n + 2 * m + roads;
   spectra.beyond.assign(lines * m, 0);
   spectra.covariance.assign(lines * m * m, 0);
-  std::vector<Complex> columns(lines * m * ends), whitened(columns.size()), matrix(n * n),
-      inverse(n * n), q(n), by_force(m), by_input(m), factor(m * m), shown(m), late(m);
+  std::vector<Complex> columns(lines * m * ends), whitened(m * ends), shows(m), factor, shown;
   EndTerms terms(ends);
-  const double root = std::sqrt(ride.duration);
-
+  PlantAtLine at(plant, setup, force);
+  const double scale = sample_time_ / std::sqrt(ride.duration);
   for (std::size_t l = 0; l < lines; ++l) {
     const std::size_t line = ride.first + l;
-    const double w = kTurn * static_cast<double>(line) / ride.duration;
-    const Complex iw(0, w);
     Complex* beyond = &spectra.beyond[l * m];
     Complex* covariance = &spectra.covariance[l * m * m];
     Complex* column = &columns[l * m * ends];
+    at.move_to(kTurn * static_cast<double>(line) / ride.duration);
 
-    // The plant at this frequency, with the spring and the dashpot that stand for the damper.
-    const Complex admittance = force.stiffness + iw * force.damping;
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < n; ++k)
-        matrix[i * n + k] = plant.stiffness()[i * n + k] + iw * plant.damping()[i * n + k] +
-                            plant.by_force()[i] * admittance * plant.deflection()[k];
-    for (std::size_t i = 0; i < n; ++i) matrix[i * n + i] -= w * w;
-    invert(matrix, inverse, n);
-    const Seen seen{plant, w};
-    const auto respond = [&](const auto& push, std::vector<Complex>& shows, const double* carried,
-                             double on_ground, double own_force) {
-      for (std::size_t i = 0; i < n; ++i) {
-        q[i] = 0;
-        for (std::size_t k = 0; k < n; ++k) q[i] += inverse[i * n + k] * push(k);
-      }
-      for (std::size_t s = 0; s < m; ++s) {
-        const PlantSensorPlace& place = setup.sensors[s].place;
-        shows[s] = late[s] * seen.of(place, q.data(), carried ? carried[place.coordinate] : 0,
-                                     on_ground, own_force, admittance);
-      }
-    };
-    const auto add_noise = [&](const std::vector<Complex>& shows, double density) {
-      for (std::size_t s = 0; s < m; ++s)
-        for (std::size_t k = 0; k <= s; ++k)
-          covariance[s * m + k] += density * shows[s] * std::conj(shows[k]);
-    };
-    for (std::size_t s = 0; s < m; ++s) late[s] = std::exp(-iw * setup.sensors[s].delay);
-
-    // The force of the law, with its errors.
-    double density = 0;
-    for (const ForceError& error : uncertain.force)
-      density += 2 * error.deviation * error.deviation * error.memory /
-                 (1 + std::pow(w * error.memory, 2));
-    respond([&](std::size_t k) { return -plant.by_force()[k]; }, by_force, nullptr, 0, 1);
-    add_noise(by_force, density);
+    // The force of the law, with its errors, and the sensors' noise.
+    at.of_force(shows);
+    add_noise(shows, error_density(uncertain, at.w()), covariance);
     for (std::size_t s = 0; s < m; ++s) {
-      beyond[s] = sample_time_ / root * (ride.shown[s][line] - by_force[s] * force.rest[line]);
+      beyond[s] = scale * (ride.shown[s][line] - shows[s] * force.rest[line]);
       covariance[s * m + s] += sample_time_ * uncertain.sensors[s] * uncertain.sensors[s];
     }
 
@@ -396,47 +458,28 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
     std::size_t end = 2 * n + 2 * m;
     for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
       const PlantInputChannel& input = setup.inputs[u];
-      respond(
-          [&](std::size_t k) {
-            return plant.by_value()[u][k] + iw * plant.by_rate()[u][k] +
-                   plant.by_force()[k] * admittance * plant.on_ground()[u];
-          },
-          by_input, plant.carried()[u].data(), plant.on_ground()[u], 0);
-      if (!input.road) {
-        add_noise(by_input, sample_time_ * input.noise * input.noise);
-        for (std::size_t s = 0; s < m; ++s)
-          beyond[s] -= sample_time_ / root * by_input[s] * ride.inputs[u][line];
-        continue;
-      }
-      const double white =
-          0.5 * uncertain.roughness * std::pow(kTurn * kReferenceWaveNumber, 2) * input.road->speed;
-      add_noise(by_input, white / (w * w + std::pow(kTurn * kLongest * input.road->speed, 2)));
-      for (std::size_t s = 0; s < m; ++s) column[s * ends + end] = by_input[s] / iw;
-      ++end;
+      at.of_input(u, shows);
+      add_noise(shows,
+                input.road ? road_density_over_time(uncertain.roughness, input.road->speed, at.w())
+                           : sample_time_ * input.noise * input.noise,
+                covariance);
+      for (std::size_t s = 0; s < m; ++s)
+        if (input.road)
+          column[s * ends + end] = shows[s] / at.iw();
+        else
+          beyond[s] -= scale * shows[s] * ride.inputs[u][line];
+      end += input.road.has_value();
     }
-
-    // Where the coordinates are at both ends, and what each sensor makes of its own.
-    for (std::size_t j = 0; j < n; ++j) {
-      respond([&](std::size_t k) { return k == j ? 1.0 : 0.0; }, by_input, nullptr, 0, 0);
-      for (std::size_t s = 0; s < m; ++s) {
-        column[s * ends + 2 * j] = by_input[s];
-        column[s * ends + 2 * j + 1] = iw * by_input[s];
-      }
-    }
-    for (std::size_t s = 0; s < m; ++s) {
-      column[s * ends + 2 * n + 2 * s] = 1;
-      column[s * ends + 2 * n + 2 * s + 1] = iw;
-    }
+    put_end_columns(at, n, ends, shows, column);
 
     // Whitened, for the least squares over all lines.
-    std::copy_n(covariance, m * m, factor.data());
+    factor.assign(covariance, covariance + m * m);
     if (!factorise(factor.data(), m)) return false;
-    std::copy_n(beyond, m, shown.data());
+    shown.assign(beyond, beyond + m);
     solve_lower(factor.data(), m, shown.data());
-    std::copy_n(column, m * ends, &whitened[l * m * ends]);
-    for (std::size_t e = 0; e < ends; ++e)
-      solve_lower(factor.data(), m, &whitened[l * m * ends + e], ends);
-    terms.add(&whitened[l * m * ends], shown.data(), m);
+    std::copy_n(column, m * ends, whitened.data());
+    for (std::size_t e = 0; e < ends; ++e) solve_lower(factor.data(), m, &whitened[e], ends);
+    terms.add(whitened.data(), shown.data(), m);
   }
 
   // Without the end terms.
