@@ -23,6 +23,7 @@
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/suspension/dampers/damper_words.h"
@@ -82,17 +83,6 @@ std::shared_ptr<const DamperModel> true_damper(const DayTruth& day) {
       std::vector<WornDamper::Amount>{{&find_wear("force", "bench"), -day.force}});
 }
 
-/// Every second sample: the truth needs short steps, the day's recording does not.
-PlantRecording thinned(PlantRecording recording) {
-  recording.sample_time *= 2;
-  recording.samples = (recording.samples + 1) / 2;
-  for (Channel& channel : recording.channels) {
-    for (std::size_t k = 0; k < recording.samples; ++k) channel.samples[k] = channel.samples[2 * k];
-    channel.samples.resize(recording.samples);
-  }
-  return recording;
-}
-
 PlantRecording as_recording(const VirtualRide& ride, const std::string& name) {
   return {.name = name,
           .sample_time = ride.recorded.sample_time,
@@ -120,8 +110,7 @@ PlantRecording record_day(const DayTruth& truth, std::uint64_t seed, const std::
       .road = "iso8608_fft,roughness=" + format_exact(truth.roughness) + ",speed=20m/s",
       .seed = seed};
   const std::shared_ptr<const DamperModel> damper = true_damper(truth);
-  PlantRecording recording =
-      thinned(as_recording(virtual_campaign(setup, *damper, options).front(), name));
+  PlantRecording recording = as_recording(virtual_campaign(setup, *damper, options).front(), name);
 
   // The static level: of the load, and of the gas force where it is lost.
   const double gas = truth.has_gas ? 0 : force_at_rest(load_parameters("spencer1997"), 1);
@@ -189,19 +178,22 @@ std::string key_of(std::size_t kind, std::size_t day) {
   return fmt::format("day {} {:06}", kind, day);
 }
 
-/// The watched plant, made on the first three healthy days; kept in the store.
+/// The watched plant, made on the first three healthy days; model and plant are kept in the store.
 WatchedPlant prepared(Store& store) {
-  const InPlantReport report = workshop();
-  for (const FittedParameter& p : report.damper)
-    fmt::print(stderr, "{} {} ... {}\n", p.name, p.low, p.high);
+  if (!store.load("model")) {
+    const InPlantReport report = workshop();
+    const InPlantSetup setup = parse_in_plant_setup(car_text(true), "car");
+    store.save("model", format_model(found_damper(report, setup, 0.002)));
+  }
+  ModelFile file = parse_model(*store.load("model"), "model");
+  const std::shared_ptr<const DamperModel> damper = std::move(file.model);
   const WatchOptions options = watch_options();
-  std::vector<PlantRecording> first;
-  if (!store.load("found"))
-    for (std::size_t d = 0; d < 3; ++d) first.push_back(make_day(0, d));
   const InPlantSetup setup = parse_in_plant_setup(car_text(false), "car");
   if (const auto found = store.load("found"))
-    return watched_again(report.model, report.domain, setup, parse_json(*found, "found"), options);
-  const WatchedPlant watched = watched_plant(report.model, report.domain, setup, first, options);
+    return watched_again(damper, file.domain, setup, parse_json(*found, "found"), options);
+  std::vector<PlantRecording> first;
+  for (std::size_t d = 0; d < 3; ++d) first.push_back(make_day(0, d));
+  const WatchedPlant watched = watched_plant(damper, file.domain, setup, first, options);
   store.save("found", format_json(found_of(watched)));
   return watched;
 }
