@@ -4,6 +4,8 @@
 //   bench_in_plant black train.csv    the same, no law named
 //   bench_in_plant car LAW...         a virtual quarter car whose damper is of another structure
 //   bench_in_plant unmeasured TRUTH CLASS SECONDS LAW...   the same on a road that nothing measures
+//   bench_in_plant cover REPETITIONS TRUTH CLASS SECONDS LAW, sensors TRUTH CLASS SECONDS LAW,
+//   building SECONDS LAW...           see bench/without_road.cpp
 
 #include "dashpot/machine/in_plant.h"
 

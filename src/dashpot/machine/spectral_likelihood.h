@@ -78,7 +78,6 @@ class SpectralLikelihood final : public InPlantUnknowns {
   /// The setup with all that x says: the plant's numbers, delays, noise and road.
   InPlantSetup setup_at(std::span<const double> x) const;
   bool is_noise(std::size_t k) const { return k >= first_noise_; }
-  double highest() const { return highest_; }  ///< Hz, of what is looked at
 
   std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
   bool is_of_law(std::size_t k) const override;

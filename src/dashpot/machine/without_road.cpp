@@ -287,6 +287,59 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
   }
 }
 
+/// Where a fit begins, and where it came to.
+struct Point {
+  std::vector<double> plant, law;
+  ObserverNoise noise;
+};
+
+/// The most likely of all unknowns along the observed motion, from `point`, which moves there. The
+/// setup as it was found; the report has no model where the law diverges. `last`: intervals too.
+InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double force,
+                       const ObserveReport& observed, bool last, Point& point,
+                       InPlantReport& report) {
+  const InPlantOptions& options = task.options;
+  std::vector<RiddenRecording> rides;
+  for (std::size_t r = 0; r < task.fitted.size(); ++r)
+    rides.push_back({&task.fitted[r], task.fitted[r].samples,
+                     motion_of(task.setup, task.fitted[r], observed.recordings[r])});
+  const SpectralLikelihood likelihood(task.setup, rides, unknowns, point.plant, point.noise, force);
+  const std::vector<double> start = likelihood.start(point.plant, point.law);
+
+  // What can be told is said before the fit.
+  if (!last) {
+    const MostLikely before = most_likely(likelihood, start, 0, options.threads, options.monitor);
+    if (before.slopes.finite)
+      report.knowable = knowable_of(likelihood, {before.slopes.information}, start.size());
+  }
+  const MostLikely found =
+      most_likely(likelihood, start, options.iterations, options.threads, options.monitor);
+  report.iterations += found.iterations;
+  report.model = nullptr;
+  if (!found.slopes.finite) {
+    report.message = "the law diverges along the motion that the sensors tell";
+    return task.setup;
+  }
+  report.model = std::make_shared<LawModel>(likelihood.damper(found.x));
+  for (std::size_t k = 0; k < point.plant.size(); ++k)
+    point.plant[k] = likelihood.described(k, found.x).value;
+  std::copy_n(found.x.begin() + static_cast<std::ptrdiff_t>(point.plant.size()), unknowns.size(),
+              point.law.begin());
+  point.noise = likelihood.noise(found.x);
+
+  // Intervals and what else is to be said.
+  if (last) {
+    report.status =
+        found.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
+    report.message = found.converged ? "most likely" : "still rising after all iterations";
+    const Covariance spread = spread_of(likelihood, found);
+    add_parameters(likelihood, found.x, spread, report);
+    mend_intervals(report);
+    add_warnings(likelihood, spread, report);
+  }
+  return likelihood.setup_at(found.x);
+}
+
 /// The drive's range in these recordings.
 std::pair<double, double> drive_range(const InPlantSetup& setup,
                                       const std::vector<PlantRecording>& recordings) {
@@ -336,59 +389,21 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
 
   // The most likely of all, and once more along the motion that a filter with that sees.
   constexpr double kFirstError = 0.1;
-  constexpr int kRounds = 2;
   ObserverNoise noise = observed.noise;
   noise.force = {{kFirstError * size.force, 0.01}, {kFirstError * size.force, 0.3}};
-  std::vector<double> plant = task.plant;
+  Point point{task.plant, std::move(law_numbers), noise};
   report.domain = domain_of(setup, records);
-  for (int round = 0; round < kRounds; ++round) {
-    options.monitor.report("fit, round " + std::to_string(round + 1), 0.3 + 0.3 * round);
-    std::vector<RiddenRecording> rides;
-    for (std::size_t r = 0; r < task.fitted.size(); ++r)
-      rides.push_back({&task.fitted[r], task.fitted[r].samples,
-                       motion_of(setup, task.fitted[r], observed.recordings[r])});
-    const SpectralLikelihood likelihood(setup, rides, unknowns, plant, noise, size.force);
-    const std::vector<double> start = likelihood.start(plant, law_numbers);
-
-    // What can be told is said before the fit.
-    if (round == 0) {
-      const MostLikely before = most_likely(likelihood, start, 0, options.threads, options.monitor);
-      if (before.slopes.finite)
-        report.knowable = knowable_of(likelihood, {before.slopes.information}, start.size());
-    }
-    const MostLikely found =
-        most_likely(likelihood, start, options.iterations, options.threads, options.monitor);
-    report.iterations += found.iterations;
+  for (const bool last : {false, true}) {
+    options.monitor.report(last ? "fit, along the motion as now observed" : "fit",
+                           last ? 0.6 : 0.3);
+    const InPlantSetup found = fit_along(task, unknowns, size.force, observed, last, point, report);
     report.seconds = cpu_seconds() - started;
-    if (!found.slopes.finite) {
-      report.message = "the law diverges along the motion that the sensors tell";
-      return report;
-    }
-    const InPlantSetup as_it_is = likelihood.setup_at(found.x);
-    noise = likelihood.noise(found.x);
-    report.model = std::make_shared<LawModel>(likelihood.damper(found.x));
-
-    // The next round begins here.
-    if (round + 1 < kRounds) {
-      for (std::size_t k = 0; k < plant.size(); ++k)
-        plant[k] = likelihood.described(k, found.x).value;
-      const auto first = found.x.begin() + static_cast<std::ptrdiff_t>(plant.size());
-      law_numbers.assign(first, first + static_cast<std::ptrdiff_t>(unknowns.size()));
-      observed = observe(report.model, report.domain, as_it_is, task.fitted,
-                         {.force = noise.force, .threads = options.threads});
-      continue;
-    }
-
-    // Intervals and what else is to be said.
-    report.status =
-        found.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-    report.message = found.converged ? "most likely" : "still rising after all iterations";
-    const Covariance spread = spread_of(likelihood, found);
-    add_parameters(likelihood, found.x, spread, report);
-    mend_intervals(report);
-    add_warnings(likelihood, spread, report);
-    options.monitor.report("the damper as observed with it", 0.9);
-    add_traces(task, as_it_is, noise, recordings, report);
+    if (!report.model) return report;
+    if (!last)
+      observed = observe(report.model, report.domain, found, task.fitted,
+                         {.force = point.noise.force, .threads = options.threads});
+    else
+      add_traces(task, found, point.noise, recordings, report);
   }
   report.seconds = cpu_seconds() - started;
   return report;
