@@ -76,8 +76,8 @@ std::string fitted(const dashpot_recordings* recordings) {
 std::string driven() {
   Recordings trace;
   Text report;
-  const auto status = dashpot_simulate(R"({"road": "step", "duration": 0.5})", nullptr, &trace,
-                                       &report);
+  const auto status =
+      dashpot_simulate(R"({"road": "step", "duration": 0.5})", nullptr, &trace, &report);
   return status == DASHPOT_OK ? report.handle : dashpot_last_error();
 }
 

@@ -12,8 +12,8 @@
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
-#include "dashpot/machine/without_road.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/machine/without_road.h"
 
 namespace dashpot {
 namespace {

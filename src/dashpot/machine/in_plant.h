@@ -4,7 +4,6 @@
 #include "dashpot/damper_model.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
-#include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_recording.h"
 
 namespace dashpot {

@@ -10,7 +10,6 @@
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/machine/in_plant_setup.h"
-#include "dashpot/machine/plant_advice.h"
 
 namespace dashpot {
 
@@ -23,6 +22,30 @@ struct Knowable {
   std::vector<double> singular_values;
   std::vector<std::string> without_effect;           ///< unknowns that no sensor shows
   std::vector<std::vector<std::string>> confounded;  ///< that can be traded against each other
+};
+
+/// The misfit along one number, all others fitted anew at each of its values.
+struct ParameterProfile {
+  std::string name, unit;
+  std::vector<double> value;   ///< SI, ascending, the best among them
+  std::vector<double> misfit;  ///< over that of the best; 3.84 bounds the 95 % interval
+  double low = 0, high = 0;    ///< of that interval; infinite where it is open as far as was looked
+};
+
+/// What one more sensor, or one more recording, would do to the 95 % intervals of plant and damper.
+struct PlantAddition {
+  std::string what;      ///< "velocity of body", "a recording at twice the amplitude"
+  double intervals = 1;  ///< geometric mean of their widths over those of now
+  std::string most;      ///< the number whose interval shrinks most; empty: none does
+  double of_most = 1;    ///< its width over that of now
+};
+
+struct PlantAdvice {
+  std::string grade;                   ///< of the sensors that were tried
+  std::string worst;                   ///< the number that is known worst, by its size
+  std::vector<PlantAddition> sensors;  ///< the best first
+  std::vector<PlantAddition> rides;    ///< beside one more recording like the first; likewise
+  std::vector<ParameterProfile> profiles;
 };
 
 struct InPlantReport {

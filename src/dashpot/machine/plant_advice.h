@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/in_plant_report.h"
 
 namespace dashpot {
 
@@ -15,30 +15,6 @@ struct LeastSquaresReport;
 struct PlantCases;
 
 // What would let a fit inside a plant tell more, and how far a doubtful number may really lie.
-
-/// The misfit along one number, all others fitted anew at each of its values.
-struct ParameterProfile {
-  std::string name, unit;
-  std::vector<double> value;   ///< SI, ascending, the best among them
-  std::vector<double> misfit;  ///< over that of the best; 3.84 bounds the 95 % interval
-  double low = 0, high = 0;    ///< of that interval; infinite where it is open as far as was looked
-};
-
-/// What one more sensor, or one more recording, would do to the 95 % intervals of plant and damper.
-struct PlantAddition {
-  std::string what;      ///< "velocity of body", "a recording at twice the amplitude"
-  double intervals = 1;  ///< geometric mean of their widths over those of now
-  std::string most;      ///< the number whose interval shrinks most; empty: none does
-  double of_most = 1;    ///< its width over that of now
-};
-
-struct PlantAdvice {
-  std::string grade;                   ///< of the sensors that were tried
-  std::string worst;                   ///< the number that is known worst, by its size
-  std::vector<PlantAddition> sensors;  ///< the best first
-  std::vector<PlantAddition> rides;    ///< beside one more recording like the first; likewise
-  std::vector<ParameterProfile> profiles;
-};
 
 /// A fit that has ended, for whoever asks what it could not tell.
 struct EndedFit {
