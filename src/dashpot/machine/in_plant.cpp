@@ -10,6 +10,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/in_plant_report.h"
+#include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
 #include "dashpot/machine/virtual_campaign.h"
