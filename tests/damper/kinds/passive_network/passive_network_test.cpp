@@ -98,6 +98,18 @@ TEST_CASE("a passive network is a model file, to the bit") {
   CHECK(again->state_size() == model.state_size());
 }
 
+TEST_CASE("a passive network of an earlier Dashpot is refused with what to do") {
+  const PassiveNetworkModel model("passive_network", {example_passive_network()});
+  std::string text = format_json(model.to_json());
+  const std::size_t at = text.find("\"drive_fade\"");
+  REQUIRE(at != std::string::npos);
+  text.erase(at, text.find(',', at) + 1 - at);
+  const std::string message =
+      message_of([&] { passive_network_model_from_json(parse_json(text, "old.json")); });
+  CHECK(message.find("of an earlier Dashpot") != std::string::npos);
+  CHECK(message.find("identify it again") != std::string::npos);
+}
+
 TEST_CASE("beyond the drive of the data networks do not read it, and levers go on") {
   // The same network, read and blind: without the weights by which networks read the drive.
   PassiveNetwork reading = example_passive_network(8, 0.5);
