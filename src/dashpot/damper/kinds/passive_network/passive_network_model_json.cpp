@@ -51,12 +51,12 @@ std::size_t count_of(ObjectReader& reader, const char* key, std::size_t most) {
 }
 
 PassiveNetwork read_member(const Value& value) {
+  ObjectReader reader(value, "a passive network");
   // Earlier ones read the drive in another way, which nothing computes any more.
-  if (value.is_object() && value.find("levers") && !value.find("drive_fade"))
+  if (value.find("levers") && !value.find("drive_fade"))
     throw Error(value.where(), "is a passive network of an earlier Dashpot, without 'drive_fade'",
                 "identify it again from its recordings");
 
-  ObjectReader reader(value, "a passive network");
   PassiveNetwork n;
   n.sizes = {count_of(reader, "springs", PassiveNetwork::kMaxSprings),
              count_of(reader, "memories", PassiveNetwork::kMaxMemories),
