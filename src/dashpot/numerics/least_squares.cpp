@@ -10,9 +10,9 @@
 #include <numeric>
 
 #include <ceres/ceres.h>
-#include <glog/logging.h>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/numerics/quiet_ceres.h"
 
 namespace dashpot {
 namespace {
@@ -255,8 +255,7 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
                          const LeastSquaresOptions& options) {
   assert(!start.empty() && problem.lower.size() == start.size() &&
          problem.upper.size() == start.size());
-  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres warns on stderr of what the report says anyway
-
+  quiet_ceres();
   LeastSquaresReport report;
   report.x = std::move(start);
   for (std::size_t k = 0; k < report.x.size(); ++k)

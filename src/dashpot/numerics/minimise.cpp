@@ -5,6 +5,8 @@
 
 #include <ceres/ceres.h>
 
+#include "dashpot/numerics/quiet_ceres.h"
+
 namespace dashpot {
 namespace {
 
@@ -61,6 +63,7 @@ class MinimiseListener final : public ceres::IterationCallback {
 
 MinimiseReport minimise(const SmoothFunction& function, std::vector<double> start,
                         const MinimiseOptions& options) {
+  quiet_ceres();
   MinimiseReport report;
   report.x = std::move(start);
   std::exception_ptr failure;
