@@ -7,13 +7,12 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
+#include "dashpot/numerics/distributions.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 namespace {
-
-constexpr double kWide95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 bool is_share(const WatchedQuantity& q) { return q.unit == "1"; }
 
@@ -69,7 +68,7 @@ DocumentTable day_table(const Watched& watched) {
     std::vector<std::string> row = {day.name};
     for (const WatchedQuantity& q : watched.quantities) {
       row.push_back(amount_text(q, day.wear[q.place]));
-      row.push_back(amount_text(q, kWide95 * day.wear_deviation[q.place], 2));
+      row.push_back(amount_text(q, kNormal95 * day.wear_deviation[q.place], 2));
       row.push_back(!is_judged(watched, d) ? "" : format_number(q.chart.points[d].sum, 3));
     }
     for (const double value : day.plant) row.push_back(format_number(value, 4));
@@ -146,8 +145,8 @@ FigurePanel value_panel(const Watched& watched, const WatchedQuantity& q) {
     dots.names.push_back(watched.days[d].estimate.name);
     if (!(point.scatter > 0)) continue;
     for (FigureSeries* edge : {&lower, &upper}) edge->x.push_back(dots.x[d]);
-    lower.y.push_back(factor * (point.expected - kWide95 * point.scatter));
-    upper.y.push_back(factor * (point.expected + kWide95 * point.scatter));
+    lower.y.push_back(factor * (point.expected - kNormal95 * point.scatter));
+    upper.y.push_back(factor * (point.expected + kNormal95 * point.scatter));
   }
   panel.series = {std::move(lower), std::move(upper), std::move(dots)};
   return panel;
@@ -248,7 +247,7 @@ const WatchedQuantity* Watched::first_alarm() const {
 std::string Watched::alarm_text(const WatchedQuantity& q) const {
   return fmt::format("{} has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
                      q.meaning, amount_text(q, q.chart.fall),
-                     amount_text(q, kWide95 * q.chart.fall_deviation, 2), amount_unit(q),
+                     amount_text(q, kNormal95 * q.chart.fall_deviation, 2), amount_unit(q),
                      days[q.chart.since].estimate.name, days[*q.chart.alarm].estimate.name);
 }
 
@@ -268,8 +267,9 @@ Document watch_document(const Watched& watched) {
   else
     document.verdict = fmt::format("No alarm on {} behind {} reference days.",
                                    counted(count - reference, "day"), reference);
-  document.verdict += fmt::format(" False alarms: one in {} healthy days on average, as stated.",
-                                  format_number(watched.options.chart.days));
+  document.verdict += fmt::format(
+      " False alarms: one in {} days on average, where healthy days are independent and normal.",
+      format_number(watched.options.chart.days));
 
   if (const std::size_t others = watched.days.size() - count; others > 0)
     document.verdict +=

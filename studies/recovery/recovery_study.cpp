@@ -7,11 +7,10 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify.h"
+#include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 /// A parameter that is `value` without current and moderately larger, or where bounds ask for it
 /// smaller, at one ampere.

@@ -6,12 +6,11 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 /// Names of plant and law unknowns among these, each once. States at the beginning are nuisances
 /// that nobody asked for: they are named beside others only.

@@ -10,6 +10,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
@@ -312,13 +313,12 @@ std::string worst_of(const std::vector<NumberOfInterest>& numbers,
 /// Where the misfit reaches that of the 95 % interval on one side, by straight lines of its root;
 /// `points` from the best outwards.
 double crossing(const std::vector<std::pair<double, double>>& points, double open) {
-  constexpr double kRoot95 = 1.959963984540054;
   for (std::size_t k = 1; k < points.size(); ++k) {
     const double root = std::sqrt(std::max(points[k].second, 0.0)),
                  last = std::sqrt(std::max(points[k - 1].second, 0.0));
-    if (root >= kRoot95)
+    if (root >= kNormal95)
       return points[k - 1].first + (points[k].first - points[k - 1].first) *
-                                       std::clamp((kRoot95 - last) / (root - last), 0.0, 1.0);
+                                       std::clamp((kNormal95 - last) / (root - last), 0.0, 1.0);
   }
   return open;
 }

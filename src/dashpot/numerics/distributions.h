@@ -2,6 +2,9 @@
 
 namespace dashpot {
 
+/// Two-sided 95 % point of the normal distribution.
+inline constexpr double kNormal95 = 1.959963984540054;
+
 // Quantiles: the value that lies above a share `p` of all, 0 < p < 1. Computed by Boost.Math in
 // double precision alone, so that they are the same on every processor and under valgrind.
 

@@ -188,7 +188,7 @@ LearnedForce fit_physics(const std::vector<FamilyRecord>& records, const Identif
 
   // The numbers, each with what it means, and their intervals as builds and errors of drawings
   // leave them; with one design, these are not known.
-  constexpr double kNormal95 = 1.96;
+  constexpr double kAbout95 = 1.96;
   const std::vector<double>& information = fit.physics.information;
   const std::vector<double> covariance =
       information.empty() ? std::vector<double>() : inverse(information, kPhysicsUnknowns);
@@ -196,7 +196,7 @@ LearnedForce fit_physics(const std::vector<FamilyRecord>& records, const Identif
     const PhysicsNumber& number = FamilyPhysics::table()[k];
     const double value = fit.physics.numbers[k];
     const double half =
-        covariance.empty() ? 0 : kNormal95 * std::sqrt(covariance[k * (kPhysicsUnknowns + 1)]);
+        covariance.empty() ? 0 : kAbout95 * std::sqrt(covariance[k * (kPhysicsUnknowns + 1)]);
     report.parameters.push_back({std::string(number.name), "1", std::string(number.meaning), value,
                                  std::max(number.low, value - half),
                                  std::min(number.high, value + half)});

@@ -9,6 +9,7 @@
 #include "dashpot/identify/fit/law_task.h"
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/model_file.h"
+#include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/global_search.h"
 
 namespace dashpot {
@@ -27,8 +28,6 @@ LeastSquaresOptions watched_options(const LawTask& task, int iterations, double 
   };
   return solver;
 }
-
-constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 /// The best point that a global search finds within some times the expected size of each unknown.
 std::vector<double> searched_start(const LawTask& task, const LeastSquaresProblem& problem) {
