@@ -20,33 +20,40 @@ struct TrackPoints {
   double last;        ///< place of the last but the mirrored one, from 0
   double per_second;  ///< how many pass
 };
+/// A place between two points: which is the first of them, and the share of the way to the next.
+struct TrackPlace {
+  int point;
+  double share;
+};
+
+/// Where a way of so many points, held within the track, leads.
+inline TrackPlace place_at(const TrackPoints& track, double reached) {
+  const double ahead = reached > 0 ? reached : 0, last = track.last;
+  const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
+  const int point = static_cast<int>(left);
+  return {point, place - point};
+}
+
+/// The cubic there, and its slope.
+inline FootMotion motion_at(const TrackPoints& track, TrackPlace place) {
+  const double u = place.share, *z = track.z + place.point;
+  const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
+  const double twist = slope + 0.5 * (z[3] - z[1]) - 2 * rise, bend = rise - slope - twist;
+  return {z[1] + u * (slope + u * (bend + u * twist)),
+          track.per_second * (slope + u * (2 * bend + 3 * u * twist))};
+}
+
 /// Heights and rates at places begin, begin + step, ... in points. Places are found first and
 /// heights then: a place waits for conversions, and two short loops overlap more than a long one.
 void pass_over(const TrackPoints& track, double begin, double step, std::span<FootMotion> out) {
   constexpr std::size_t kChunk = 64;
-  double share[kChunk];
-  int point[kChunk];
+  TrackPlace places[kChunk];
   for (std::size_t first = 0; first < out.size(); first += kChunk) {
     const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
     const int count = static_cast<int>(some.size());
-    const double from = begin + step * static_cast<double>(first), last = track.last;
-
-    // Places: within which two points, and where between them.
-    for (int n = 0; n < count; ++n) {
-      const double reached = from + step * n, ahead = reached > 0 ? reached : 0;
-      const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
-      point[n] = static_cast<int>(left);
-      share[n] = place - point[n];
-    }
-
-    // Heights: the cubic there, and its slope.
-    for (int n = 0; n < count; ++n) {
-      const double u = share[n], *z = track.z + point[n];
-      const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
-      const double twist = slope + 0.5 * (z[3] - z[1]) - 2 * rise, bend = rise - slope - twist;
-      some[n] = {z[1] + u * (slope + u * (bend + u * twist)),
-                 track.per_second * (slope + u * (2 * bend + 3 * u * twist))};
-    }
+    const double from = begin + step * static_cast<double>(first);
+    for (int n = 0; n < count; ++n) places[n] = place_at(track, from + step * n);
+    for (int n = 0; n < count; ++n) some[n] = motion_at(track, places[n]);
   }
 }
 
@@ -64,19 +71,23 @@ class DrivenRoad final : public GroundMotion {
   double duration() const noexcept override { return profile_.length() / speed_; }
   double speed() const noexcept override { return speed_; }
   FootMotion foot(double t, std::size_t track, double behind) const noexcept override {
-    FootMotion one;
-    feet(t, 0, track, behind, {&one, 1});
-    return one;
+    const TrackPoints points = track_points(track);
+    return motion_at(points, place_at(points, points_at(t, behind)));
   }
   void feet(double t, double step, std::size_t track, double behind,
             std::span<FootMotion> out) const noexcept override {
-    const std::size_t which = std::min(track, profile_.tracks.size() - 1);
-    const std::vector<double>& points = points_[which];
-    pass_over({points.data(), static_cast<double>(points.size() - 3), points_per_second_},
-              points_per_second_ * t - behind / profile_.spacing, points_per_second_ * step, out);
+    pass_over(track_points(track), points_at(t, behind), points_per_second_ * step, out);
   }
 
  private:
+  TrackPoints track_points(std::size_t track) const noexcept {
+    const std::vector<double>& points = points_[std::min(track, points_.size() - 1)];
+    return {points.data(), static_cast<double>(points.size() - 3), points_per_second_};
+  }
+  /// The way, in points, of a foot so far behind.
+  double points_at(double t, double behind) const noexcept {
+    return points_per_second_ * t - behind / profile_.spacing;
+  }
   static std::vector<double> mirrored_at_ends(const std::vector<double>& z) {
     std::vector<double> points{z[1]};
     points.insert(points.end(), z.begin(), z.end());

@@ -39,24 +39,6 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   }
 }
 
-DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<const double> x,
-                                      double current) const noexcept {
-  const Strut& s = plant_.struts[strut];
-  DamperInput motion{along(s.row, x.data()), along(s.row, x.data() + plant_.size()), current};
-  if (s.track) {
-    const FootMotion ground = ground_.foot(t, *s.track, 0);
-    motion.displacement -= ground.height;
-    motion.velocity -= ground.velocity;
-  }
-  return motion;
-}
-
-double PlantForces::strut_extra(std::size_t strut, const DamperInput& motion) const noexcept {
-  const Strut& s = plant_.struts[strut];
-  const double sliding = s.friction > 0 ? std::tanh(motion.velocity / s.friction_speed) : 0;
-  return strut_resistance(resistances_[strut], motion.displacement, sliding);
-}
-
 FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
   return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
 }

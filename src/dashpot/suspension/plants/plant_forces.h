@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -50,5 +51,24 @@ class PlantForces {
   std::vector<double> shaken_;   ///< M e; empty where the ground does not shake
   std::vector<double> resting_;  ///< size x tyres: K^-1 row k
 };
+
+inline DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<const double> x,
+                                             double current) const noexcept {
+  const Strut& s = plant_.struts[strut];
+  DamperInput motion{along(s.row, x.data()), along(s.row, x.data() + plant_.size()), current};
+  if (s.track) {
+    const FootMotion ground = ground_.foot(t, *s.track, 0);
+    motion.displacement -= ground.height;
+    motion.velocity -= ground.velocity;
+  }
+  return motion;
+}
+
+inline double PlantForces::strut_extra(std::size_t strut,
+                                       const DamperInput& motion) const noexcept {
+  const Strut& s = plant_.struts[strut];
+  const double sliding = s.friction > 0 ? std::tanh(motion.velocity / s.friction_speed) : 0;
+  return strut_resistance(resistances_[strut], motion.displacement, sliding);
+}
 
 }  // namespace dashpot
