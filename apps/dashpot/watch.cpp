@@ -161,6 +161,8 @@ void add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
               const WatchOptions& options, DayState& state, Console& console) {
   const int threads = options.threads > 0 ? options.threads : default_threads();
   const std::size_t batch = 2 * static_cast<std::size_t>(threads);
+
+  // Batch by batch, so that a stop loses one of them at most.
   for (std::size_t first = 0; first < todo.size(); first += batch) {
     options.monitor.report(
         fmt::format("day {} of {}", first + 1, todo.size()),
@@ -168,6 +170,8 @@ void add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
     const std::size_t count = std::min(batch, todo.size() - first);
     std::vector<std::optional<WatchedDay>> days(count);
     std::vector<std::string> faults(count);
+
+    // Day beside day; one that cannot be read stops no other.
     parallel_for(count, options.threads, [&](std::size_t k) {
       try {
         days[k] = watch_day(watched, read_day(todo[first + k], watched.setup, options), options);
@@ -175,6 +179,8 @@ void add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
         faults[k] = error.what();
       }
     });
+
+    // In their order into the state.
     for (std::size_t k = 0; k < count; ++k) {
       if (days[k]) {
         state.keep(todo[first + k], std::move(*days[k]));

@@ -53,34 +53,50 @@ std::vector<std::size_t> rows_in_brief(const Watched& watched) {
   return rows;
 }
 
-DocumentTable day_table(const Watched& watched) {
-  DocumentTable table{.title = "Days", .columns = {{"day", false, 0, true}}, .rows = {}};
+/// Three columns per quantity, one per unknown of the plant.
+std::vector<TextColumn> day_columns(const Watched& watched) {
+  std::vector<TextColumn> columns = {{"day", false, 0, true}};
   for (const WatchedQuantity& q : watched.quantities) {
-    table.columns.push_back({q.name + ", " + amount_unit(q), true});
-    table.columns.push_back({"+-", true, 2, false, "95 %, of the day by itself"});
-    table.columns.push_back({"sum", true, 1, false, "of the chart; an alarm above its threshold"});
+    columns.push_back({q.name + ", " + amount_unit(q), true});
+    columns.push_back({"+-", true, 2, false, "95 %, of the day by itself"});
+    columns.push_back({"sum", true, 1, false, "of the chart; an alarm above its threshold"});
   }
   for (const PlantUnknown& unknown : watched.plant.setup.unknown)
-    table.columns.push_back({unknown.name, true, 3});
-  table.columns.push_back({"remark"});
+    columns.push_back({unknown.name, true, 3});
+  columns.push_back({"remark"});
+  return columns;
+}
+
+/// The cells of day_columns().
+std::vector<std::string> day_row(const Watched& watched, std::size_t d) {
+  const DayEstimate& day = watched.days[d].estimate;
+  std::vector<std::string> row = {day.name};
+  for (const WatchedQuantity& q : watched.quantities) {
+    row.push_back(amount_text(q, day.wear[q.place]));
+    row.push_back(amount_text(q, kNormal95 * day.wear_deviation[q.place], 2));
+    row.push_back(!is_judged(watched, d) ? "" : format_number(q.chart.points[d].sum, 3));
+  }
+  for (const double value : day.plant) row.push_back(format_number(value, 4));
+  row.push_back(remark_of(watched, d));
+  return row;
+}
+
+DocumentTable day_table(const Watched& watched) {
+  DocumentTable table{.title = "Days", .columns = day_columns(watched), .rows = {}};
   for (std::size_t d = 0; d < watched.days.size(); ++d) {
-    const DayEstimate& day = watched.days[d].estimate;
-    std::vector<std::string> row = {day.name};
-    for (const WatchedQuantity& q : watched.quantities) {
-      row.push_back(amount_text(q, day.wear[q.place]));
-      row.push_back(amount_text(q, kNormal95 * day.wear_deviation[q.place], 2));
-      row.push_back(!is_judged(watched, d) ? "" : format_number(q.chart.points[d].sum, 3));
-    }
-    for (const double value : day.plant) row.push_back(format_number(value, 4));
-    row.push_back(remark_of(watched, d));
-    table.warnings.push_back(row.back().starts_with("ALARM"));
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(day_row(watched, d));
+    table.warnings.push_back(table.rows.back().back().starts_with("ALARM"));
   }
   table.brief = rows_in_brief(watched);
   table.note =
       "Amounts by which the damper differs from its model, with what the day itself leaves open "
       "(95 %). 'sum' is the chart's: healthy days keep it near 0.";
   return table;
+}
+
+std::string state_of(const Watched& watched, const WatchedQuantity& q) {
+  if (q.chart.alarm) return "alarm at " + watched.days[*q.chart.alarm].estimate.name;
+  return days_that_count(watched) <= watched.options.chart.reference ? "learns" : "healthy";
 }
 
 DocumentTable chart_table(const Watched& watched) {
@@ -95,15 +111,12 @@ DocumentTable chart_table(const Watched& watched) {
                       .rows = {}};
   for (const WatchedQuantity& q : watched.quantities) {
     const ChartPoint& last = q.chart.points.back();
-    const bool learns = days_that_count(watched) <= watched.options.chart.reference;
     table.rows.push_back({q.name, amount_text(q, last.expected), amount_text(q, last.scatter, 2),
                           amount_unit(q), format_number(last.sum, 3),
-                          format_number(q.chart.threshold, 3),
-                          q.chart.alarm ? "alarm at " + watched.days[*q.chart.alarm].estimate.name
-                          : learns      ? "learns"
-                                        : "healthy"});
+                          format_number(q.chart.threshold, 3), state_of(watched, q)});
     table.warnings.push_back(q.chart.alarm.has_value());
   }
+
   table.note = fmt::format(
       "Healthy days that are independent and normally distributed give a false alarm once in {} "
       "days on average, all charts together. Scatter: what is to be expected of the next day, "
@@ -123,12 +136,8 @@ std::vector<double> day_numbers(const Watched& watched) {
 FigurePanel value_panel(const Watched& watched, const WatchedQuantity& q) {
   const double factor = is_share(q) ? 100 : 1;
   const std::string label = q.name + (is_share(q) ? ", %" : "");
-  FigurePanel panel{.title = label,
-                    .x_label = "day",
-                    .y_label = label,
-                    .series = {},
-                    .reads_along_x = true,
-                    .y_unit = is_share(q) ? "" : q.unit};
+
+  // What was estimated, and both edges of what was expected.
   FigureSeries dots{.label = "estimated",
                     .colour = "measured",
                     .x = day_numbers(watched),
@@ -139,6 +148,8 @@ FigurePanel value_panel(const Watched& watched, const WatchedQuantity& q) {
                      .mark = FigureSeries::Mark::Dashes,
                      .is_read = false};
   FigureSeries upper = lower;
+
+  // Day by day; the first ones expect nothing yet.
   for (std::size_t d = 0; d < watched.days.size(); ++d) {
     const ChartPoint& point = q.chart.points[d];
     dots.y.push_back(factor * watched.days[d].estimate.wear[q.place]);
@@ -148,8 +159,12 @@ FigurePanel value_panel(const Watched& watched, const WatchedQuantity& q) {
     lower.y.push_back(factor * (point.expected - kNormal95 * point.scatter));
     upper.y.push_back(factor * (point.expected + kNormal95 * point.scatter));
   }
-  panel.series = {std::move(lower), std::move(upper), std::move(dots)};
-  return panel;
+  return {.title = label,
+          .x_label = "day",
+          .y_label = label,
+          .series = {std::move(lower), std::move(upper), std::move(dots)},
+          .reads_along_x = true,
+          .y_unit = is_share(q) ? "" : q.unit};
 }
 
 /// The chart's sum by day, and its threshold.
@@ -235,6 +250,42 @@ Value watch_json(const Watched& watched) {
                         {"days", std::move(days)}});
 }
 
+std::string verdict_of(const Watched& watched) {
+  const WatchedQuantity* alarm = watched.first_alarm();
+  const std::size_t count = days_that_count(watched), reference = watched.options.chart.reference;
+  std::string verdict;
+  if (alarm)
+    verdict = "ALARM: " + watched.alarm_text(*alarm) + '.';
+  else if (count <= reference)
+    verdict =
+        fmt::format("{} of {} reference days are there: nothing is judged yet.", count, reference);
+  else
+    verdict = fmt::format("No alarm on {} behind {} reference days.",
+                          counted(count - reference, "day"), reference);
+
+  // How often it is wrong, and the days that it knows nothing of.
+  verdict += fmt::format(
+      " False alarms: one in {} days on average, where healthy days are independent and normal.",
+      format_number(watched.options.chart.days));
+  if (const std::size_t others = watched.days.size() - count; others > 0)
+    verdict += fmt::format(" {} not count: no wear was found under which the sensors are likely.",
+                           others == 1 ? "One day does" : std::to_string(others) + " days do");
+  return verdict;
+}
+
+/// Titles of the rows of watch_csv().
+std::string csv_titles(const Watched& watched) {
+  std::string text = "day";
+  for (const WatchedQuantity& q : watched.quantities) {
+    const std::string unit = is_share(q) ? "" : " [" + q.unit + "]";
+    text += ',' + q.name + unit + ',' + q.name + "_deviation" + unit + ',' + q.name + "_expected" +
+            unit + ',' + q.name + "_scatter" + unit + ',' + q.name + "_score," + q.name + "_sum";
+  }
+  for (const PlantUnknown& unknown : watched.plant.setup.unknown) text += ',' + unknown.name;
+  for (const std::string& name : watched.options.known) text += ',' + name;
+  return text + ",remark\n";
+}
+
 }  // namespace
 
 const WatchedQuantity* Watched::first_alarm() const {
@@ -257,28 +308,12 @@ Document watch_document(const Watched& watched) {
                     .verdict = {},
                     .sections = {},
                     .kind = "watch"};
-  const WatchedQuantity* alarm = watched.first_alarm();
-  const std::size_t count = days_that_count(watched), reference = watched.options.chart.reference;
-  if (alarm)
-    document.verdict = "ALARM: " + watched.alarm_text(*alarm) + '.';
-  else if (count <= reference)
-    document.verdict =
-        fmt::format("{} of {} reference days are there: nothing is judged yet.", count, reference);
-  else
-    document.verdict = fmt::format("No alarm on {} behind {} reference days.",
-                                   counted(count - reference, "day"), reference);
-  document.verdict += fmt::format(
-      " False alarms: one in {} days on average, where healthy days are independent and normal.",
-      format_number(watched.options.chart.days));
+  document.verdict = verdict_of(watched);
 
-  if (const std::size_t others = watched.days.size() - count; others > 0)
-    document.verdict +=
-        fmt::format(" {} not count: no wear was found under which the sensors are likely.",
-                    others == 1 ? "One day does" : std::to_string(others) + " days do");
-
+  // The alarms behind the first one, then tables and figures.
   DocumentSection section{.name = "watch", .title = "Days and charts", .paragraphs = {}};
   for (const WatchedQuantity& q : watched.quantities)
-    if (q.chart.alarm && &q != alarm)
+    if (q.chart.alarm && &q != watched.first_alarm())
       section.remarks.push_back("Also: " + watched.alarm_text(q) + ".");
   section.tables = {day_table(watched), chart_table(watched)};
   section.figures = {chart_figure(watched)};
@@ -288,20 +323,11 @@ Document watch_document(const Watched& watched) {
 }
 
 std::string watch_csv(const Watched& watched) {
-  // Titles, then a row per day.
-  std::string text = "day";
-  for (const WatchedQuantity& q : watched.quantities) {
-    const std::string unit = is_share(q) ? "" : " [" + q.unit + "]";
-    text += ',' + q.name + unit + ',' + q.name + "_deviation" + unit + ',' + q.name + "_expected" +
-            unit + ',' + q.name + "_scatter" + unit + ',' + q.name + "_score," + q.name + "_sum";
-  }
-  for (const PlantUnknown& unknown : watched.plant.setup.unknown) text += ',' + unknown.name;
-  for (const std::string& name : watched.options.known) text += ',' + name;
-  text += ",remark\n";
+  std::string text = csv_titles(watched);
   for (std::size_t d = 0; d < watched.days.size(); ++d) {
     const WatchedDay& day = watched.days[d];
-    text += csv_field(day.estimate.name);
     const auto add = [&](double value) { text += ',' + format_number(value, 9); };
+    text += csv_field(day.estimate.name);
     for (const WatchedQuantity& q : watched.quantities) {
       const ChartPoint& point = q.chart.points[d];
       for (const double value : {day.estimate.wear[q.place], day.estimate.wear_deviation[q.place],

@@ -106,20 +106,21 @@ Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recordin
   record.sample_time = recording.sample_time;
   for (std::size_t k = 0; k < recording.samples; ++k)
     record.time.push_back(recording.sample_time * static_cast<double>(k));
+
+  // What was observed, then the drive: its channel, or one level.
   const char* const names[] = {"force", "displacement", "velocity"};
   for (std::size_t q = 0; q < 3; ++q)
     record.channels.push_back({.name = names[q],
                                .unit = observed.quantities[q].unit,
                                .samples = observed.quantities[q].value,
                                .origin = "observed"});
-  if (setup.drive_unit != DriveUnit::None)
+  if (setup.drive_unit != DriveUnit::None) {
     record.channels.push_back({.name = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current",
                                .unit = to_string(setup.drive_unit),
                                .samples = setup.drive.empty()
                                               ? std::vector<double>(recording.samples, setup.level)
                                               : recording.channel(setup.drive).samples,
                                .origin = "as recorded"});
-  if (setup.drive_unit != DriveUnit::None) {
     const auto [low, high] = std::ranges::minmax(record.channels.back().samples);
     if (low == high) record.drive_level = low;
   }
