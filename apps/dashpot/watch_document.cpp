@@ -82,7 +82,7 @@ std::vector<std::string> day_row(const Watched& watched, std::size_t d) {
 }
 
 DocumentTable day_table(const Watched& watched) {
-  DocumentTable table{.title = "Days", .columns = day_columns(watched), .rows = {}};
+  DocumentTable table{.title = "By day", .columns = day_columns(watched), .rows = {}};
   for (std::size_t d = 0; d < watched.days.size(); ++d) {
     table.rows.push_back(day_row(watched, d));
     table.warnings.push_back(table.rows.back().back().starts_with("ALARM"));
@@ -100,19 +100,18 @@ std::string state_of(const Watched& watched, const WatchedQuantity& q) {
 }
 
 DocumentTable chart_table(const Watched& watched) {
-  DocumentTable table{.title = "Charts",
+  DocumentTable table{.title = "Where they stand",
                       .columns = {{"quantity"},
                                   {"expected", true},
                                   {"scatter of days", true},
-                                  {"unit"},
                                   {"sum", true},
                                   {"alarm above", true},
                                   {"state"}},
                       .rows = {}};
   for (const WatchedQuantity& q : watched.quantities) {
     const ChartPoint& last = q.chart.points.back();
-    table.rows.push_back({q.name, amount_text(q, last.expected), amount_text(q, last.scatter, 2),
-                          amount_unit(q), format_number(last.sum, 3),
+    table.rows.push_back({q.name + ", " + amount_unit(q), amount_text(q, last.expected),
+                          amount_text(q, last.scatter, 2), format_number(last.sum, 3),
                           format_number(q.chart.threshold, 3), state_of(watched, q)});
     table.warnings.push_back(q.chart.alarm.has_value());
   }
@@ -188,7 +187,7 @@ FigurePanel sum_panel(const Watched& watched, const WatchedQuantity& q) {
 DocumentFigure chart_figure(const Watched& watched) {
   DocumentFigure figure{
       .name = "charts",
-      .title = "Charts",
+      .title = "Amounts and sums",
       .caption =
           "By day: the amount, and between which bounds the days before had led to expect "
           "it; the chart's sum and its threshold.",
@@ -310,14 +309,16 @@ Document watch_document(const Watched& watched) {
                     .kind = "watch"};
   document.verdict = verdict_of(watched);
 
-  // The alarms behind the first one, then tables and figures.
-  DocumentSection section{.name = "watch", .title = "Days and charts", .paragraphs = {}};
+  // The charts, with the alarms behind the first one, before the days that they stand on.
+  DocumentSection charts{.name = "charts", .title = "Charts", .paragraphs = {}};
   for (const WatchedQuantity& q : watched.quantities)
     if (q.chart.alarm && &q != watched.first_alarm())
-      section.remarks.push_back("Also: " + watched.alarm_text(q) + ".");
-  section.tables = {day_table(watched), chart_table(watched)};
-  section.figures = {chart_figure(watched)};
-  document.sections.push_back(std::move(section));
+      charts.remarks.push_back("Also: " + watched.alarm_text(q) + ".");
+  charts.tables = {chart_table(watched)};
+  charts.figures = {chart_figure(watched)};
+  DocumentSection days{.name = "days", .title = "Days", .paragraphs = {}};
+  days.tables = {day_table(watched)};
+  document.sections = {std::move(charts), std::move(days)};
   document.data = watch_json(watched);
   return document;
 }
