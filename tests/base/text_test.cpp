@@ -34,6 +34,7 @@ TEST_CASE("a mistyped word finds its neighbour") {
   CHECK(closest("bingam", known) == "bingham");
   CHECK(closest("modified", known) == "modified_bouc_wen");
   CHECK(!closest("polynomial", known));
+  CHECK(suggest("Bingham", {}).find("DASHPOT_DATA") != std::string::npos);
   CHECK(suggest("Bingham", known) ==
         "did you mean 'bingham'? known: bingham, modified_bouc_wen, tanh_kwok");
 }

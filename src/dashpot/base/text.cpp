@@ -112,6 +112,8 @@ std::string suggest(std::string_view word, const std::vector<std::string>& known
                     const std::vector<std::string>& unlisted) {
   std::vector<std::string> all = known;
   all.insert(all.end(), unlisted.begin(), unlisted.end());
+  // Only the names of files that come with Dashpot can be none.
+  if (all.empty()) return "none is found: DASHPOT_DATA may name the folder of Dashpot's data";
   const auto near = closest(word, all);
   return (near ? "did you mean '" + *near + "'? " : "") + "known: " + join(known, ", ");
 }
