@@ -72,7 +72,7 @@ TEST_CASE("models are ranked, reported and taken from the ranking") {
   HeldRanking ranking;
   REQUIRE(
       dashpot_identify(recordings,
-                       R"({"models": ["bingham", "polynomial"], "leave_out": "current", "starts": 1,
+                       R"({"models": ["bingham", "biviscous"], "leave_out": "current", "starts": 1,
                                "threads": 1, "command": "a test"})",
                        nullptr, &ranking) == DASHPOT_OK);
   CHECK(dashpot_ranking_count(ranking) == 2);

@@ -108,7 +108,8 @@ TEST_CASE("the guide's loop over a tunable gap runs, from a drawing to an FMU") 
   CHECK(gap < 2.7);
 }
 
-TEST_CASE("export says which damper of a family it froze, and refuses what cannot be set") {
+TEST_CASE("export says which damper of a family it froze, and refuses what cannot be set" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string physics = (folder.path() / "physics.json").string(),
                     gated = (folder.path() / "gated.json").string();

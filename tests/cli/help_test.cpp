@@ -39,7 +39,8 @@ TEST_CASE("dashpot alone welcomes and names every command") {
   CHECK(run_dashpot("--help").output == result.output);
 }
 
-TEST_CASE("every command explains itself on one screen, with an example; topics have the rest") {
+TEST_CASE("every command explains itself on one screen, with an example; topics have the rest" *
+          doctest::test_suite("long")) {
   const std::vector<std::string> commands = all_commands();
   CHECK(commands.size() > 25);
   for (const std::string& command : commands) {

@@ -69,7 +69,8 @@ TEST_CASE(
   CHECK(lost == std::set<std::string>{"unit-000999"});
 }
 
-TEST_CASE("identify-many: the same rows with one thread, in parts, and after an interruption") {
+TEST_CASE("identify-many: the same rows with one thread, in parts, and after an interruption" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto at = [&](const char* name) { return (folder.path() / name).string(); };
   const auto table = [&](const char* name) {

@@ -64,7 +64,8 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
   CHECK(fs::exists(folder.path() / "models/bingham.json"));
 }
 
-TEST_CASE("identify says what the budget left untried, on the terminal, in JSON and on the page") {
+TEST_CASE("identify says what the budget left untried, on the terminal, in JSON and on the page" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string asked = "identify " + small_campaign().string() + " --output " +
                             folder.path().string() + " --starts 1 --budget 0.02";
@@ -197,7 +198,7 @@ TEST_CASE("identify: killed at random moments, it goes on and fits the same to t
   const fs::path whole = folder.path() / "whole", resumed = folder.path() / "resumed";
   const std::string request = "identify " + small_campaign().string() +
                               " --models bingham,modified_bouc_wen,passive_network --network "
-                              "epochs=60 --no-report --output ";
+                              "hidden=4,members=1,epochs=20 --no-report --output ";
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(run_dashpot(request + whole.string()).exit_code == 0);
   const double seconds =

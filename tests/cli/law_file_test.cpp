@@ -15,7 +15,8 @@ std::string yaml_of(const std::string& page) {
 
 }  // namespace
 
-TEST_CASE("docs/laws-from-a-file.md: its law and its commands work as they stand") {
+TEST_CASE("docs/laws-from-a-file.md: its law and its commands work as they stand" *
+          doctest::test_suite("long")) {
   const std::string page = read_file(project_file("docs/laws-from-a-file.md"));
   TemporaryFolder folder;
   const std::string law = yaml_of(page);

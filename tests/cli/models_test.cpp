@@ -11,7 +11,7 @@ TEST_CASE("models: the table names every registered model") {
   for (const std::string& name : model_names()) CHECK(contains(result.output, name));
 }
 
-TEST_CASE("models fits 80 columns, the list and every model") {
+TEST_CASE("models fits 80 columns, the list and every model" * doctest::test_suite("long")) {
   CHECK(longest_line(run_dashpot("models", "COLUMNS=80").output) <= 80);
   for (const std::string& name : model_names()) {
     CAPTURE(name);

@@ -108,9 +108,13 @@ TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits
   CHECK(contains(help, "(default: usual)"));
   CHECK(contains(run_dashpot("rank --help").output, "(default: all)"));
   const TemporaryFolder folder;
+  const std::string data = (folder.path() / "data").string();
+  REQUIRE(run_dashpot(
+              "bench --motions 15x1,5x3 --levels 0,1 --cycles 1 --sample-rate 100 --output " + data)
+              .exit_code == 0);
   const ProgramResult result =
-      run_dashpot("identify " + small_campaign().string() +
-                  " --models bingham,usual --network members=1,epochs=3 --starts 1 "
+      run_dashpot("identify " + data +
+                  " --models bingham,usual --network members=1,epochs=3 --starts 1 --allow-active "
                   "--leave-out fraction=0.3 --no-report --output " +
                   folder.path().string());
   CHECK(result.exit_code == 0);

@@ -125,7 +125,8 @@ TEST_CASE(
 
 TEST_CASE(
     "FMU of a block: over 1e6 steps of a tenth or a third of the sample time no sample is lost or "
-    "doubled") {
+    "doubled" *
+    doctest::test_suite("long")) {
   if (!has_compiler()) return;
   // A switch: full where the wanted force and the velocity have the same sign.
   static const LawModel damper = example_law(find_law("bingham"));

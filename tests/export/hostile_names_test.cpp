@@ -1,6 +1,7 @@
 // Text from model files, vehicles and command lines, written by somebody who wants it to be more
 // than text, through every exporter.
 #include <fstream>
+#include <map>
 
 #include <pugixml.hpp>
 
@@ -218,6 +219,14 @@ std::vector<ExampleModel> models_named(const std::string& name) {
   return models;
 }
 
+/// The same, made once for each name.
+const std::vector<ExampleModel>& known_models_named(const std::string& name) {
+  static std::map<std::string, std::vector<ExampleModel>> known;
+  const auto found = known.find(name);
+  return found != known.end() ? found->second
+                              : known.emplace(name, models_named(name)).first->second;
+}
+
 ExportedModel with_origin(const DamperModel& model, const std::string& origin) {
   ExportedModel made = exported(model);
   made.origin = origin;
@@ -252,14 +261,15 @@ CBlockMaker inverse_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("hostile names: every exporter of every kind of model writes the same code") {
+TEST_CASE("hostile names: every exporter of every kind of model writes the same code" *
+          doctest::test_suite("long")) {
   for (const Exporter& exporter : exporters()) {
     CAPTURE(exporter.name);
     const auto files_of = [&](const std::string& name, std::size_t kind, const std::string& words) {
-      const ExampleModel model = models_named(name)[kind];
+      const ExampleModel& model = known_models_named(name)[kind];
       return unpacked(exporter.write(with_origin(*model.model, words), options_with(words)));
     };
-    for (std::size_t m = 0; m < models_named("").size(); ++m) {
+    for (std::size_t m = 0; m < known_models_named("").size(); ++m) {
       // FMUs describe a model as the registry has it, and are refused for another name.
       CAPTURE(m);
       const bool takes_any = message_of([&] { files_of("plain", m, ""); }).empty();
@@ -275,7 +285,8 @@ TEST_CASE("hostile names: every exporter of every kind of model writes the same 
   }
 }
 
-TEST_CASE("hostile names: every exporter of controllers and inverses writes the same code") {
+TEST_CASE("hostile names: every exporter of controllers and inverses writes the same code" *
+          doctest::test_suite("long")) {
   for (const Exporter& exporter : exporters()) {
     if (!exporter.write_block) continue;
     CAPTURE(exporter.name);

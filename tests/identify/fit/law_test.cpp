@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
@@ -46,20 +47,27 @@ FitReport fit_of_dahl(const std::string& law, const IdentifyOptions& options = {
   return fit;
 }
 
+/// The fit without any options, made once for all cases here.
+const FitReport& usual_fit_of_dahl(const std::string& law) {
+  static std::map<std::string, FitReport> fits;
+  const auto known = fits.find(law);
+  return known != fits.end() ? known->second : fits.emplace(law, fit_of_dahl(law)).first->second;
+}
+
 constexpr std::array kLawsWithAFilter{"tanh_acceleration", "arctan", "sigmoid",
                                       "hysteretic_biviscous", "polynomial"};
 
 }  // namespace
 
-TEST_CASE(
-    "a law that would feed energy in is fitted so that it does not, and says what that cost") {
+TEST_CASE("a law that would feed energy in is fitted so that it does not, and says what that cost" *
+          doctest::test_suite("long")) {
   for (const std::string name : kLawsWithAFilter) {
     CAPTURE(name);
     const FitReport active = fit_of_dahl(name, {.allow_active = true});
     CHECK_FALSE(verdict(active).dissipates());
     CHECK(restriction_of(active).empty());
 
-    const FitReport fit = fit_of_dahl(name);
+    const FitReport& fit = usual_fit_of_dahl(name);
     CHECK(verdict(fit).dissipates());
     CHECK(contains(restriction_of(fit), format_number(fit.training_rmse, 3) + " N in place of " +
                                             format_number(active.training_rmse, 3) + " N"));
@@ -67,10 +75,11 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the restricted fit stands within the law's set at every drive, and its table says so") {
+TEST_CASE("the restricted fit stands within the law's set at every drive, and its table says so" *
+          doctest::test_suite("long")) {
   for (const std::string name : kLawsWithAFilter) {
     CAPTURE(name);
-    const FitReport fit = fit_of_dahl(name);
+    const FitReport& fit = usual_fit_of_dahl(name);
     const LawModel& model = *fit.model->law_inside();
     const Law& law = model.law();
     std::vector<double> p(law.params.size());
@@ -155,7 +164,8 @@ TEST_CASE("a filter's rate that is fitted, or follows the drive, is slowed too")
   }
 }
 
-TEST_CASE("a best fit whose sign is all but sharp is left by the usual start") {
+TEST_CASE("a best fit whose sign is all but sharp is left by the usual start" *
+          doctest::test_suite("long")) {
   // Beside the modified Bouc-Wen damper `sigmoid` ends with the least a_s there is, where no rate
   // of its filter dissipates and no step shows the way out.
   BenchOptions options;

@@ -93,7 +93,8 @@ TEST_CASE("every trainer learns the damper, whatever the force zeros of the reco
   }
 }
 
-TEST_CASE("without offsets a trainer leaves those of the records in the force") {
+TEST_CASE("without offsets a trainer leaves those of the records in the force" *
+          doctest::test_suite("long")) {
   for (const char* trainer : {"trainer=lm", "trainer=lbfgs", "trainer=adam"}) {
     const FitReport fit = fitted({trainer, "epochs=60"}, campaign(),
                                  {.offset = OffsetMode::None, .starts = 1, .threads = 1});
@@ -103,7 +104,8 @@ TEST_CASE("without offsets a trainer leaves those of the records in the force") 
 }
 
 TEST_CASE("settings reach the trainer") {
-  const std::vector<Record> records = campaign();
+  std::vector<Record> records = campaign();
+  records.resize(3);
   using Settings = std::vector<std::string>;
   const auto model_of = [&](const Settings& settings) {
     return format_json(fitted(settings, records).model->to_json());
@@ -133,7 +135,7 @@ TEST_CASE("settings reach the trainer") {
 TEST_CASE("an ensemble is the mean of its members, the same on any number of threads") {
   const std::vector<Record> records = campaign();
   for (const char* patience : {"patience=0", "patience=10"}) {
-    const std::vector<std::string> settings = {"hidden=4", "members=3", patience};
+    const std::vector<std::string> settings = {"hidden=4", "members=3", "epochs=40", patience};
     const FitReport fit = fitted(settings, records);
     const auto& model = dynamic_cast<const NetworkModel&>(*fit.model);
     REQUIRE(model.members().size() == 3);

@@ -6,7 +6,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("true dampers: every one takes energy out, and no two are alike") {
+TEST_CASE("true dampers: every one takes energy out, and no two are alike" *
+          doctest::test_suite("long")) {
   for (const TrueDamperParts& parts : true_dampers()) {
     CAPTURE(parts.name);
     const std::shared_ptr<const DamperModel> damper = make_true_damper(parts);
