@@ -174,6 +174,18 @@ void write_seeds(const fs::path& folder) {
                                         .provenance = {},
                                         .quality = {}}));
   data_seeds(folder);
+
+  // Targets that read the same in another way.
+  constexpr std::pair<const char*, const char*> kCopies[] = {{"csv", "csv_table"},
+                                                             {"hdf5", "hdf5_tables"},
+                                                             {"mat", "mat_tables"},
+                                                             {"mdf4", "mdf4_tables"},
+                                                             {"tdms", "tdms_tables"},
+                                                             {"xlsx", "xlsx_tables"},
+                                                             {"dataset_yaml", "dataset_file"}};
+  for (const auto& [from, to] : kCopies)
+    fs::copy(folder / from, folder / to,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   write_word_seeds(folder);
   write_store_seeds(folder);
 }
