@@ -158,6 +158,7 @@ void write_seeds(const fs::path& folder) {
     write_file(folder / "mdf4" / std::to_string(way), example_mdf4(way));
   fs::create_directories(folder / "hdf5");
   write_example_hdf5(folder / "hdf5/groups", {"a", "b"});
+  write_example_hdf5(folder / "hdf5/one", {"a"});
   write_file(folder / "tdms/chunks", example_tdms(false, false));
   write_file(folder / "tdms/rows", example_tdms(true, true));
   write_file(folder / "tdms/daqmx", example_tdms_daqmx());
