@@ -1,8 +1,12 @@
 #include "fuzz.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <fcntl.h>
+#include <map>
 #include <unistd.h>
+#include <utility>
+
+#include <sys/stat.h>
 
 #include "dashpot/error.h"
 
@@ -55,10 +59,19 @@ const FuzzTarget* find_fuzz_target(std::string_view name) {
 
 std::filesystem::path fuzz_file(const std::string& name, const std::string& content) {
   static const FuzzFolder folder;
-  const auto path = folder.path / name;
+  static std::map<std::string, int> descriptors;
+  auto path = folder.path / name;
+
+  // Written in place as long as it is the file of that name: to open it takes longer.
+  const auto [at, is_new] = descriptors.try_emplace(name, -1);
+  int& file = at->second;
+  struct stat about;
+  if (!is_new && fstat(file, &about) == 0 && about.st_nlink == 0) close(std::exchange(file, -1));
+  if (file < 0) file = open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+
   // Not write_file: waiting for the disk would take most of the time.
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  require_true(file && std::fwrite(content.data(), 1, content.size(), file) == content.size());
-  std::fclose(file);
+  const auto size = static_cast<ssize_t>(content.size());
+  require_true(pwrite(file, content.data(), content.size(), 0) == size);
+  require_true(ftruncate(file, size) == 0);
   return path;
 }

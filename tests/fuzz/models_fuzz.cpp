@@ -1,32 +1,16 @@
 #include <memory>
 
 #include "dashpot/damper/inverse/inverse_file.h"
-#include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/design/design_problem.h"
-#include "dashpot/export/c/law_equations.h"
 #include "dashpot/model_file.h"
 #include "dashpot/physics/damper_physics.h"
 #include "fuzz.h"
+#include "model_runs.h"
 
 // Files of models, of inverses and of dampers.
 
 namespace {
-
-/// A run that begins at rest ends in a number or is known to have diverged.
-void require_runs(const dashpot::DamperModel& model) {
-  std::vector<double> state(model.state_size());
-  dashpot::DamperInput before{};
-  model.rest(before, state);
-  for (const dashpot::DamperInput now :
-       {dashpot::DamperInput{1e-4, 0.1, 0.5}, {2e-4, -0.1, 1}, {0, 1e3, -1e3}}) {
-    model.advance(before, now, 1e-3, state);
-    before = now;
-    (void)model.force(now, state);
-    (void)model.has_diverged(state);
-  }
-}
 
 /// What is read can be run, written, and read again.
 void model_json(const std::string& input) {
@@ -56,18 +40,6 @@ void parameter_set_json(const std::string& input) {
   require_runs(set.model);
 }
 
-/// What is understood has numbers or none, and is written as it is read.
-void law_yaml(const std::string& input) {
-  const auto text = dashpot::parse_law_text(input, "fuzz.yaml");
-  const std::string definition = dashpot::format_json(text->definition());
-  const auto again = dashpot::parse_law_text(definition, "again.json");
-  require_true(dashpot::format_json(again->definition()) == definition);
-  std::vector<double> values;
-  for (const dashpot::ParamInfo& row : text->law().params) values.push_back(row.value);
-  require_runs(dashpot::LawModel::constant(text->law(), values));
-  require_true(!dashpot::c_law_equations(text->law()).empty());
-}
-
 /// Its text reads back as the same, and the chain from coil to force has an answer.
 void damper_yaml(const std::string& input) {
   const dashpot::DamperDescription description = dashpot::parse_description(input, "fuzz.yaml");
@@ -90,7 +62,6 @@ void design_yaml(const std::string& input) {
 const FuzzTarget targets[] = {{"model_json", model_json},
                               {"inverse_json", inverse_json},
                               {"design_yaml", design_yaml},
-                              {"law_yaml", law_yaml},
                               {"parameter_set_json", parameter_set_json},
                               {"damper_yaml", damper_yaml}};
 

@@ -1,6 +1,5 @@
 #include "dashpot/dataset.h"
-#include "dashpot/record/conditions.h"
-#include "dashpot/record/readers/family_json.h"
+#include "dashpot/record/dataset_file.h"
 #include "fuzz.h"
 #include "record/readers/example_workbook.h"
 
@@ -51,6 +50,12 @@ void dataset_yaml(const std::string& input) {
   load_fuzzed(data, fuzz_file("dataset.yaml", input).string());
 }
 
+/// The dataset file alone, without the recordings that it is about.
+void dataset_file(const std::string& input) {
+  const dashpot::DatasetFile stated = dashpot::load_dataset_file(fuzz_file("alone.yaml", input));
+  for (const dashpot::FileStatement& file : stated.files) require_true(!file.match.empty());
+}
+
 /// The rows of a sheet as XML, which mutated zip files hardly ever show.
 void xlsx_sheet(const std::string& input) {
   const std::string names = row_of({text_cell("t [s]"), text_cell("x [mm]"), text_cell("F [N]")});
@@ -64,17 +69,6 @@ void family_json(const std::string& input) {
   load_fuzzed(fuzz_file("data.json", input.substr(0, at)));
 }
 
-/// The text of what was understood is understood alike.
-void leave_out(const std::string& input) {
-  const std::string text = dashpot::format_leave_out(dashpot::parse_leave_out(input));
-  require_true(dashpot::format_leave_out(dashpot::parse_leave_out(text)) == text);
-}
-
-void file_name(const std::string& input) {
-  const dashpot::NameParts parts = dashpot::split_name(input);
-  require_true(parts.rest.size() <= input.size() + 1);
-}
-
 const FuzzTarget targets[] = {
     {"csv",
      [](const std::string& input) { load_fuzzed(fuzz_file("run_10mm_1Hz_0.5A.csv", input)); }},
@@ -85,9 +79,8 @@ const FuzzTarget targets[] = {
     {"xlsx", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.xlsx", input)); }},
     {"xlsx_sheet", xlsx_sheet},
     {"daq_text", daq_text},
+    {"dataset_file", dataset_file},
     {"dataset_yaml", dataset_yaml},
-    {"family_json", family_json},
-    {"leave_out", leave_out},
-    {"file_name", file_name}};
+    {"family_json", family_json}};
 
 }  // namespace

@@ -158,6 +158,7 @@ void write_seeds(const fs::path& folder) {
     write_file(folder / "mdf4" / std::to_string(way), example_mdf4(way));
   fs::create_directories(folder / "hdf5");
   write_example_hdf5(folder / "hdf5/groups", {"a", "b"});
+  write_example_hdf5(folder / "hdf5/one", {"a"});
   write_file(folder / "tdms/chunks", example_tdms(false, false));
   write_file(folder / "tdms/rows", example_tdms(true, true));
   write_file(folder / "tdms/daqmx", example_tdms_daqmx());
@@ -174,6 +175,18 @@ void write_seeds(const fs::path& folder) {
                                         .provenance = {},
                                         .quality = {}}));
   data_seeds(folder);
+
+  // Targets that read the same in another way.
+  constexpr std::pair<const char*, const char*> kCopies[] = {{"csv", "csv_table"},
+                                                             {"hdf5", "hdf5_tables"},
+                                                             {"mat", "mat_tables"},
+                                                             {"mdf4", "mdf4_tables"},
+                                                             {"tdms", "tdms_tables"},
+                                                             {"xlsx", "xlsx_tables"},
+                                                             {"dataset_yaml", "dataset_file"}};
+  for (const auto& [from, to] : kCopies)
+    fs::copy(folder / from, folder / to,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   write_word_seeds(folder);
   write_store_seeds(folder);
 }

@@ -49,6 +49,9 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // of a file that is r
 // What may come out of packed bytes: more than recordings do, less than fills a memory.
 constexpr std::size_t kAlwaysUnpacked = std::size_t{64} << 20, kMostUnpackedPerByte = 25;
 
+// What is kept of a file that may be packed: all of a small one.
+constexpr std::size_t kLeastPacked = std::size_t{1} << 10, kMostPacked = std::size_t{1} << 18;
+
 constexpr std::string_view kTemporaryMark = ".part-";
 constexpr std::size_t kRandomLetters = 6;
 constexpr std::time_t kAbandoned = 60;  // s: a file that is being written is younger, or locked
@@ -157,7 +160,9 @@ class TemporaryFile {
 
 struct InputFile::State {
   explicit State(const fs::path& from)
-      : path(from.string()), file(open_regular(from, size)), packed(std::size_t{1} << 18) {}
+      : path(from.string()),
+        file(open_regular(from, size)),
+        packed(std::clamp(size, kLeastPacked, kMostPacked)) {}
 
   /// Up to `room` bytes of the file as they are.
   std::size_t take(char* to, std::size_t room) {

@@ -41,8 +41,12 @@ constexpr std::string_view kWishes =
     "target reference ref setpoint set command cmd commanded desired error min max mean";
 
 bool contains_word(std::string_view list, std::string_view word) {
-  const std::vector<std::string> words = split(list, ' ');
-  return std::find(words.begin(), words.end(), word) != words.end();
+  for (std::size_t at = 0; at < list.size();) {
+    const std::size_t end = std::min(list.find(' ', at), list.size());
+    if (list.substr(at, end - at) == word) return true;
+    at = end + 1;
+  }
+  return false;
 }
 
 /// Letters with accents (UTF-8 or Latin-1) as plain ones: the names stand without.

@@ -116,6 +116,21 @@ TEST_CASE("a file longer than the read block keeps every row") {
   }
 }
 
+TEST_CASE("lines of up to 1 MiB are read, in UTF-16 as well") {
+  const TemporaryFolder folder;
+  for (const bool wide : {false, true}) {
+    const auto file_of = [&](std::size_t longest) {
+      const std::string text = "# " + std::string(longest, 'x') + "\nt_s,F_N\n0,1\n0.1,2\n";
+      std::string bytes = wide ? "\xFF\xFE" : "";
+      for (const char c : text) bytes += wide ? std::string{c, '\0'} : std::string{c};
+      return folder.write("long.csv", bytes);
+    };
+    for (const std::size_t longest : {65'000, 65'534, 300'000, 1'000'000})
+      CHECK(read_csv(file_of(longest)).front().columns[1].values == std::vector<double>{1, 2});
+    CHECK_THROWS_WITH_AS(read_csv(file_of(1 << 20)), doctest::Contains("more than 1 MiB"), Error);
+  }
+}
+
 TEST_CASE("0 bytes") {
   const TemporaryFolder folder;
   const auto path = folder.write("empty.csv", "");

@@ -41,11 +41,12 @@ TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
   for (const std::size_t size : {whole.size() / 4, whole.size() / 2, whole.size() - 9})
     CHECK_THROWS_AS(read_tables(folder.write("cut.h5", whole.substr(0, size))), Error);
 
-  // A dataset, and a chunk, of more numbers than the file can have.
-  for (const bool by_chunk : {false, true}) {
-    const auto bomb = folder.path() / (by_chunk ? "chunk.h5" : "extent.h5");
+  // A dataset, a chunk, of more numbers than the file can have; more chunks than it can list.
+  constexpr std::pair<hsize_t, hsize_t> kBombs[] = {
+      {1'000'000'000, 1000}, {10, 100'000'000}, {5'000'000, 1}};
+  for (const auto& [extent, chunk] : kBombs) {
+    const auto bomb = folder.path() / "bomb.h5";
     const hid_t file = H5Fcreate(bomb.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    const hsize_t extent = by_chunk ? 10 : 1'000'000'000, chunk = by_chunk ? 100'000'000 : 1000;
     const hsize_t limit = H5S_UNLIMITED;
     const hid_t space = H5Screate_simple(1, &extent, &limit);
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
@@ -56,6 +57,16 @@ TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
     H5Dclose(set), H5Pclose(creation), H5Sclose(space), H5Fclose(file);
     CHECK_THROWS_WITH_AS(read_tables(bomb), doctest::Contains("unpacks to far more"), Error);
   }
+
+  // A dataset whose extent lost its sides, and its chunks did not: HDF5 would count chunks for
+  // ever.
+  const char extent_of_force[] = {1, 2, 1, 0, 0, 0, 0, 0, 40, 0, 0, 0, 0, 0, 0, 0, 2};
+  const std::size_t at = whole.find(std::string(extent_of_force, sizeof extent_of_force));
+  REQUIRE(at != std::string::npos);
+  std::string scalar = whole;
+  scalar[at + 1] = 0;
+  CHECK_THROWS_WITH_AS(read_tables(folder.write("scalar.h5", scalar)),
+                       doctest::Contains("another number of dimensions"), Error);
 
   // Numbers of another file.
   const auto link = folder.path() / "link.h5";

@@ -150,6 +150,17 @@ TEST_CASE("MDF 4: what is damaged is refused with the place") {
   CHECK_THROWS_WITH_AS(read_group(beyond, {{.name = "F", .byte = 9}}, std::string(16, 'a'), 16),
                        doctest::Contains("'F' that lies beyond its record"), Error);
 
+  // Packed data that state more than so few bytes can hold.
+  ExampleMdf4 lying;
+  const std::uint64_t packed = lying.packed(example_mdf4_record(0));
+  const std::uint64_t records = lying.group(example_mdf4_channels(lying), 1, 18);
+  bytes = lying.finish(lying.data_group(records, packed));
+  std::string stated;
+  put<std::uint64_t>(stated, 60 << 20);
+  bytes.replace(packed + 24 + 8, 8, stated);
+  CHECK_THROWS_WITH_AS(read_mdf4_bytes(bytes), doctest::Contains("cannot be, in the block DZ"),
+                       Error);
+
   // What is not finished, and what is older.
   std::string other = whole;
   other.replace(0, 8, "UnFinMF ");

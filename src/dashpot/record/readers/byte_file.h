@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// A regular file that is read at any place.
+/// A regular file that is read at any place, by one thread.
 class ByteFile {
  public:
   /// Throws Error when it cannot be opened.
@@ -24,9 +24,13 @@ class ByteFile {
   const std::string& path() const { return path_; }
 
  private:
+  void read_directly(std::uint64_t offset, char* to, std::size_t count) const;
+
   std::string path_;
   std::uint64_t size_ = 0;
   int descriptor_;
+  mutable std::string kept_;  ///< a block, since small pieces lie side by side
+  mutable std::uint64_t kept_at_ = 0;
 };
 
 /// The number whose bytes begin at `from`, the least or the most significant first.

@@ -173,11 +173,11 @@ std::vector<RawTable> read_hdf5(const fs::path& path) {
   if (lower(path.extension().string()) == ".gz")
     throw Error(file, "is a packed file of HDF5", "unpack it with gunzip first");
   const std::lock_guard turn(hdf5_turn());
-  check_hdf5(file, fs::file_size(path));
+  const Hdf5Handle opened = open_hdf5(file);
+  check_hdf5(opened, file, fs::file_size(path));
 
   Gathered all;
-  const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (opened >= 0) H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, gather, &all);
+  H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, gather, &all);
   if (all.failure) std::rethrow_exception(all.failure);
 
   // A table of each group that holds one.

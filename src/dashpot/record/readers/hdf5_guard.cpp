@@ -11,9 +11,10 @@ namespace {
 /// What is wrong with a file of HDF5, found link by link; an exception must not pass through it.
 struct Links {
   std::size_t most_values;  ///< of the whole file, as numbers of double precision
+  std::size_t chunks_left;  ///< HDF5 keeps some hundred bytes of each in memory
   std::size_t values_left = most_values;
   std::size_t links_left = 100000;
-  enum class Fault { None, Outside, Bomb } fault = Fault::None;
+  enum class Fault { None, Outside, Bomb, Damage } fault = Fault::None;
 
   herr_t stop(Fault found) {
     fault = found;
@@ -21,18 +22,29 @@ struct Links {
   }
 };
 
-/// The values of a chunk, which is unpacked as a whole, or 0.
-std::size_t values_in_chunk(hid_t creation, std::size_t most) {
-  if (creation < 0 || H5Pget_layout(creation) != H5D_CHUNKED) return 0;
-  std::array<hsize_t, H5S_MAX_RANK> sides{};
+/// A product that stays at one above the most that counts.
+std::size_t bounded_product(std::size_t a, std::size_t b, std::size_t most) {
+  return a > most / std::max<std::size_t>(b, 1) || b > most ? most + 1 : a * b;
+}
+
+/// The values of a chunk, which is unpacked as a whole, and how many chunks there are; or zeros.
+struct Chunks {
+  std::size_t values = 0, count = 0;
+  bool fit = true;  ///< they have as many sides as the dataset
+};
+
+Chunks chunks_of(hid_t creation, hid_t space, std::size_t most) {
+  if (creation < 0 || space < 0 || H5Pget_layout(creation) != H5D_CHUNKED) return {};
+  std::array<hsize_t, H5S_MAX_RANK> sides{}, extent{};
   const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, sides.data());
-  std::size_t values = 1;
-  for (int k = 0; k < rank; ++k) {
-    const auto side = static_cast<std::size_t>(sides[static_cast<std::size_t>(k)]);
-    if (side > most || values > most / std::max<std::size_t>(side, 1)) return most + 1;
-    values *= side;
+  if (H5Sget_simple_extent_dims(space, extent.data(), nullptr) != rank) return {0, 0, false};
+  Chunks chunks{1, 1};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(std::max(rank, 0)); ++k) {
+    const hsize_t side = std::max<hsize_t>(sides[k], 1);
+    chunks.values = bounded_product(chunks.values, sides[k], most);
+    chunks.count = bounded_product(chunks.count, extent[k] / side + (extent[k] % side != 0), most);
   }
-  return values;
+  return chunks;
 }
 
 herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void* data) {
@@ -52,10 +64,13 @@ herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*
   const hssize_t count = space < 0 ? 0 : H5Sget_simple_extent_npoints(space);
   const std::size_t width = type < 0 ? 1 : std::max<std::size_t>(H5Tget_size(type) / 8, 1);
   const auto values = static_cast<std::size_t>(std::max<hssize_t>(count, 0));
-  if (values > links.values_left / width ||
-      values_in_chunk(creation, links.most_values) > links.most_values / width)
+  const Chunks chunks = chunks_of(creation, space, links.most_values);
+  if (!chunks.fit) return links.stop(Links::Fault::Damage);
+  if (values > links.values_left / width || chunks.values > links.most_values / width ||
+      chunks.count > links.chunks_left)
     return links.stop(Links::Fault::Bomb);
   links.values_left -= values * width;
+  links.chunks_left -= chunks.count;
   return 0;
 }
 
@@ -66,16 +81,21 @@ std::mutex& hdf5_turn() {
   return turn;
 }
 
-void check_hdf5(const std::string& file, std::uintmax_t file_size) {
-  constexpr std::uintmax_t kAlways = std::uintmax_t{64} << 20, kPerByte = 12;
+Hdf5Handle open_hdf5(const std::string& file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // HDF5 prints otherwise
   H5PLset_loading_state(0);
-  const Hdf5Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (opened < 0)
     throw Error(file, "is damaged or cut off: HDF5 cannot open it",
                 "copy it again from its source");
+  return {opened, H5Fclose};
+}
 
-  Links links{.most_values = std::max(kAlways, kPerByte * file_size) / sizeof(double)};
+void check_hdf5(hid_t opened, const std::string& file, std::uintmax_t file_size) {
+  constexpr std::uintmax_t kAlways = std::uintmax_t{64} << 20, kPerByte = 12;
+  constexpr std::uintmax_t kChunksAlways = 100'000, kBytesPerChunk = 8;  // of its list
+  Links links{.most_values = std::max(kAlways, kPerByte * file_size) / sizeof(double),
+              .chunks_left = std::max(kChunksAlways, file_size / kBytesPerChunk)};
   const herr_t end = H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, look_at_link, &links);
   if (links.fault == Links::Fault::Bomb)
     throw Error(file, "unpacks to far more than a recording of its size",
@@ -83,6 +103,10 @@ void check_hdf5(const std::string& file, std::uintmax_t file_size) {
   if (links.fault == Links::Fault::Outside)
     throw Error(file, "takes numbers from other files, which Dashpot does not follow",
                 "save it as one file");
+  if (links.fault == Links::Fault::Damage)
+    throw Error(file,
+                "is damaged: a dataset's chunks have another number of dimensions than it has",
+                "copy it again from its source");
   if (end < 0)
     throw Error(file, "is damaged or cut off: HDF5 cannot list what it holds",
                 "copy it again from its source");

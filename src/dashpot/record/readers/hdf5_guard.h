@@ -26,9 +26,13 @@ class Hdf5Handle {
 /// HDF5, and the MAT library above it, serve one thread at a time: held while a file is read.
 std::mutex& hdf5_turn();
 
-/// Before anything of an HDF5 file is read: throws Error on numbers that lie in other files, on
-/// datasets and chunks that state far more numbers than a file of this size has, and on a file that
-/// HDF5 cannot list. Filters that would be loaded from the disk are switched off for the process.
-void check_hdf5(const std::string& file, std::uintmax_t file_size);
+/// Throws Error when HDF5 cannot open it. Filters that would be loaded from the disk are switched
+/// off for the process.
+Hdf5Handle open_hdf5(const std::string& file);
+
+/// Before anything of an open HDF5 file is read: throws Error on numbers that lie in other files,
+/// on datasets and chunks that state far more numbers than a file of this size has, on more chunks
+/// than its lists have room for, and on a file that HDF5 cannot list.
+void check_hdf5(hid_t opened, const std::string& file, std::uintmax_t file_size);
 
 }  // namespace dashpot

@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr std::size_t kBlock = std::size_t{1} << 16, kLongestLine = std::size_t{1} << 20;
+constexpr std::size_t kLongestCharacter = 4;  // bytes of UTF-8
 
 }  // namespace
 
@@ -58,16 +59,20 @@ double LineSource::expected_lines() const {
   return static_cast<double>(file_.size()) / std::max(per_line, 1.0);
 }
 
-/// Moves the unfinished line to the front and reads on; false at the end of the file.
+/// Moves the unfinished line to the front, makes room behind it and reads on; false at the end of
+/// the file.
 bool LineSource::fill() {
   if (at_end_) return false;
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (end_ == buffer_.size())
-    throw Error(path_ + ":" + std::to_string(line_ + 1),
-                "a line of more than 1 MiB is not a table of numbers",
-                "give a text file with one sample per line");
+  if (buffer_.size() - end_ < kLongestCharacter) {
+    if (buffer_.size() >= kLongestLine)
+      throw Error(path_ + ":" + std::to_string(line_ + 1),
+                  "a line of more than 1 MiB is not a table of numbers",
+                  "give a text file with one sample per line");
+    buffer_.resize(2 * buffer_.size());
+  }
   if (encoding_ != Encoding::Bytes) return fill_from_utf16();
   const std::size_t n = file_.read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += n;
@@ -86,14 +91,14 @@ bool LineSource::fill_from_utf16() {
 
   // A surrogate needs two units, so fewer than four bytes may have to wait for more.
   if (undecoded_.size() < 4) {
-    std::string more(kBlock / 4, '\0');
+    std::string more(kBlock, '\0');
     more.resize(file_.read(more.data(), more.size()));
     at_end_ = more.empty();
     undecoded_ += more;
   }
 
   std::size_t k = 0;
-  while (k + 1 < undecoded_.size() && end_ + 4 <= buffer_.size()) {
+  while (k + 1 < undecoded_.size() && end_ + kLongestCharacter <= buffer_.size()) {
     unsigned code = static_cast<unsigned>(unit_at(k));
     const bool high = code >= 0xD800 && code < 0xDC00;
     if (high && k + 3 >= undecoded_.size() && !at_end_) break;
@@ -116,13 +121,7 @@ bool LineSource::fill_from_utf16() {
     }
   }
   undecoded_.erase(0, k);
-  if (end_ == before && !at_end_) {
-    if (end_ + 4 > buffer_.size())
-      throw Error(path_ + ":" + std::to_string(line_ + 1),
-                  "a line of more than 1 MiB is not a table of numbers",
-                  "give a text file with one sample per line");
-    return fill_from_utf16();
-  }
+  if (end_ == before && !at_end_) return fill_from_utf16();
   return end_ > before;
 }
 

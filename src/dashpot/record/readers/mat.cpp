@@ -196,7 +196,7 @@ std::vector<RawTable> read_mat(const fs::path& path) {
   const std::string head = read_head(path, kMat73Head);
   if (head.starts_with("MATLAB 7.3")) {
     check_mat73(head, fs::file_size(path), file);
-    check_hdf5(file, fs::file_size(path));
+    check_hdf5(open_hdf5(file), file, fs::file_size(path));
   } else {
     check_mat(read_file(path), file);
   }

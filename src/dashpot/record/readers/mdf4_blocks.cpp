@@ -16,6 +16,7 @@ constexpr std::size_t kHead = 24;                         // name, length, numbe
 constexpr std::uint64_t kMostLinks = 1'000'000;           // of a list of data blocks
 constexpr std::uint64_t kMostTextBytes = 1 << 20;         // of a comment
 constexpr std::uint64_t kMostPackedBlock = 256ull << 20;  // unpacked; the standard has 4 MiB
+constexpr std::uint64_t kMostDeflated = 1032;             // bytes that one can stand for
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
 /// What was stored column by column, so that it packs better, row by row again; bytes that fill no
@@ -132,7 +133,8 @@ void Mdf4Blocks::stream_packed(const Mdf4Block& block,
   if (way > 1)
     throw Error(file_.path(), "is packed in way " + std::to_string(way) + ", newer than MDF 4.2",
                 "save it with deflate, or unpacked");
-  if (packed > block.data_size - kPackedHead || whole > kMostPackedBlock)
+  if (packed > block.data_size - kPackedHead || whole > kMostPackedBlock ||
+      whole / kMostDeflated > packed)
     fail(block.at, "a length that cannot be, in the block DZ");
   count(block.at, whole);
 

@@ -30,6 +30,15 @@ constexpr Reader kReaders[] = {
     {"CSV", ".csv .txt .tsv .dat .asc", is_csv, read_csv},
 };
 
+constexpr std::size_t kHead = 4096;  // bytes that tell a format
+
+const Reader* reader_of(const fs::path& path, std::string_view head) {
+  const std::string extension = lower(without_gz(path).extension().string());
+  for (const Reader& reader : kReaders)
+    if (reader.recognises(path, extension, head)) return &reader;
+  return nullptr;
+}
+
 }  // namespace
 
 std::span<const Reader> readers() { return kReaders; }
@@ -38,18 +47,13 @@ fs::path without_gz(const fs::path& path) {
   return lower(path.extension().string()) == ".gz" ? path.parent_path() / path.stem() : path;
 }
 
-const Reader* find_reader(const fs::path& path) {
-  const std::string extension = lower(without_gz(path).extension().string());
-  const std::string head = read_head(path, 4096);
-  for (const Reader& reader : kReaders)
-    if (reader.recognises(path, extension, head)) return &reader;
-  return nullptr;
-}
+const Reader* find_reader(const fs::path& path) { return reader_of(path, read_head(path, kHead)); }
 
 std::vector<RawTable> read_tables(const fs::path& path) {
-  if (read_head(path, 1).empty())
+  const std::string head = read_head(path, kHead);
+  if (head.empty())
     throw Error(path.string(), "is empty (0 bytes)", "copy it again from its source");
-  const Reader* reader = find_reader(path);
+  const Reader* reader = reader_of(path, head);
   if (!reader)
     throw Error(path.string(), "is not a recording that Dashpot can read",
                 "it reads " + known_formats());
