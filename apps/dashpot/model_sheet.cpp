@@ -20,6 +20,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_hybrid/presets.h"
 #include "dashpot/damper/kinds/passive_network/passive_network.h"
 #include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
@@ -222,11 +223,17 @@ void describe(ModelSheet& sheet, const StateSpacePreset& preset) {
 }
 
 void describe(ModelSheet& sheet, const PassiveNetworkPreset& preset) {
-  sheet.numbers = preset.members * PassiveLayout(preset.sizes).count;
+  sheet.numbers += preset.members * PassiveLayout(preset.sizes).count;
   add_states(sheet, preset.members, "q, 1 (where the drive varies)");
   add_states(sheet, preset.members * preset.sizes.memories, "u, 1");
   add_states(sheet, preset.members * preset.sizes.springs, "s, 1");
   add_states(sheet, preset.members, "w, 1");
+}
+
+void describe(ModelSheet& sheet, const PassiveHybridPreset& preset) {
+  add_table(sheet, *preset.law);
+  describe(sheet, *preset.network);
+  ++sheet.numbers;  // the share
 }
 
 template <auto presets>
@@ -247,6 +254,7 @@ constexpr std::array kDescriptions{
     KindDescription{ModelKind::PassiveNetwork, describe_preset<passive_network_presets>},
     KindDescription{ModelKind::Fuzzy, describe_preset<fuzzy_presets>},
     KindDescription{ModelKind::Hybrid, describe_preset<hybrid_presets>},
+    KindDescription{ModelKind::PassiveHybrid, describe_preset<passive_hybrid_presets>},
     KindDescription{ModelKind::Family, describe_preset<family_presets>},
 };
 
@@ -298,6 +306,9 @@ ModelSheet model_sheet(const std::string& name) {
                    .inputs = info.inputs,
                    .settings = network_settings_of(name)};
   if (is_law(name)) sheet.dissipates = find_law(name).dissipates;
+  if (info.kind == ModelKind::PassiveHybrid)
+    sheet.dissipates = "The network always; the law at constant drive. The law: " +
+                       std::string(info.law->dissipates);
   row_of<kDescriptions>(info.kind).describe(sheet);
   return sheet;
 }

@@ -22,6 +22,7 @@ enum class ModelKind {
   PassiveNetwork,
   Fuzzy,
   Hybrid,
+  PassiveHybrid,
   Family,
   Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
 };
@@ -42,6 +43,7 @@ inline constexpr std::array kModelKindNames{
     ModelKindName{ModelKind::PassiveNetwork, "passive_network"},
     ModelKindName{ModelKind::Fuzzy, "fuzzy"},
     ModelKindName{ModelKind::Hybrid, "hybrid"},
+    ModelKindName{ModelKind::PassiveHybrid, "passive_hybrid"},
     ModelKindName{ModelKind::Family, "family"},
 };
 

@@ -5,6 +5,7 @@
 #include "damper/inverse/inverses.h"
 #include "damper/kinds/family/example_family.h"
 #include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/passive_hybrid/passive_hybrid_example.h"
 #include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/inverse/registry.h"
@@ -111,6 +112,7 @@ TEST_CASE("stepping a network with fed-back forces allocates nothing") {
 }
 
 TEST_CASE("stepping a hybrid allocates nothing") {
+  check_stepping(example_passive_hybrid());
   for_each_law([](const Law& law) {
     std::vector<double> values;
     for (const ParamInfo& param : law.params) values.push_back(param.value);

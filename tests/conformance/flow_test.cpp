@@ -2,6 +2,7 @@
 #include "damper/kinds/family/example_family.h"
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/passive_hybrid/passive_hybrid_example.h"
 #include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
@@ -51,6 +52,7 @@ TEST_CASE("rates of states are what a short step makes of them: networks, famili
       HysteresisNetworkModel("bank", {example_hysteresis_network(), example_hysteresis_network()}));
   check_flow(StateSpaceModel("states", {example_state_space(1), example_state_space(2)}));
   check_flow(PassiveNetworkModel("springs", {example_passive_network(1)}));
+  check_flow(example_passive_hybrid());
   check_flow(example_family(FamilyTarget::Residual));
   check_flow(example_family_network());
   const HybridSource source{lagging(find_law("modified_bouc_wen")), {{60, 500}, {60}, {50}}};

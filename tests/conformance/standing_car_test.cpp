@@ -2,6 +2,7 @@
 #include <span>
 
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
+#include "damper/kinds/passive_hybrid/passive_hybrid_example.h"
 #include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/base/text.h"
@@ -112,6 +113,20 @@ TEST_CASE("a car swings on for ever with the published damper that does not, and
   const AfterStep left = after_step(std::move(shaken));
   CHECK_FALSE(left.comes_to_rest());
   CHECK(left.last > 1);
+}
+
+TEST_CASE("a car that stands comes to rest with a law and any network beside it" *
+          doctest::test_suite("long")) {
+  for (const double share : {0.2, 0.9})
+    for (const std::string plant : kPlants) {
+      CAPTURE(share);
+      CAPTURE(plant);
+      const AfterStep left =
+          after_step(car(plant, "viscous", 0),
+                     std::make_shared<PassiveHybridModel>(example_passive_hybrid(share, 0)));
+      CAPTURE(left.last);
+      CHECK(left.comes_to_rest());
+    }
 }
 
 TEST_CASE("a car that stands comes to rest with any passive network" *

@@ -170,7 +170,7 @@ TEST_CASE("a model file that cannot be used says where and why") {
   CHECK(mentions(message_after("\"kind\": \"law\"", "\"kind\": \"laws\""), "did you mean 'law'"));
   CHECK(mentions(message_after("\"kind\": \"law\"", "\"kind\": \"spline\""),
                  "known: law, network, narx, hysteresis_network, state_space, passive_network, "
-                 "fuzzy, hybrid, family"));
+                 "fuzzy, hybrid, passive_hybrid, family"));
   CHECK(mentions(message_after("\"sample_time\"", "\"sampletime\""), "needs 'sample_time'"));
   CHECK(mentions(message_after("\"quality\"", "\"qualities\""), "unknown key 'qualities'"));
   CHECK(mentions(message_after("\"unit\": \"m/s\"", "\"unit\": \"mm/s\""), "write m/s"));

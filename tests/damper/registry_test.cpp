@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_hybrid/presets.h"
 #include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "support.h"
@@ -24,8 +25,9 @@ TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") 
             "mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor", "narx_two_sensors",
             "hysteresis_network", "neural_state_space", "passive_network",
             "passive_network_one_sensor", "anfis", "takagi_sugeno", "large_scale_bouc_wen+network",
-            "modified_bouc_wen+network", "family_gated", "family_h3x15", "family_h3x15_residual",
-            "family_h3x15_total", "family_line", "family_physics"});
+            "modified_bouc_wen+network", "large_scale_bouc_wen+passive_network", "family_gated",
+            "family_h3x15", "family_h3x15_residual", "family_h3x15_total", "family_line",
+            "family_physics"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -73,6 +75,27 @@ TEST_CASE("passive networks say their kind and which sensors they read") {
   }
 }
 
+TEST_CASE(
+    "a law that dissipates by its bounds has a passive hybrid, which needs the network's sensors") {
+  for (const Law* law : laws()) {
+    CAPTURE(law->name);
+    // What its table says of where it dissipates.
+    const std::string_view set = law->dissipates;
+    const bool by_bounds =
+        set.starts_with("Within the bounds") || set.find(", as bounded") != std::string_view::npos;
+    CHECK(is_law_of_passive_hybrids(law->name) == by_bounds);
+  }
+  REQUIRE(passive_hybrid_presets().size() == 20);
+  for (const PassiveHybridPreset& preset : passive_hybrid_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == ModelKind::PassiveHybrid);
+    CHECK(info.inputs == model_info("passive_network").inputs);
+    CHECK(preset.name == passive_hybrid_name(preset.law->name));
+    CHECK(law_inside(preset.name) == preset.law);
+    CHECK_FALSE(is_law(preset.name));
+  }
+}
+
 TEST_CASE("every law has a hybrid, which needs the law's sensors") {
   REQUIRE(hybrid_presets().size() == laws().size());
   std::size_t named = 0;
@@ -85,8 +108,10 @@ TEST_CASE("every law has a hybrid, which needs the law's sensors") {
     CHECK_FALSE(is_law(preset.name));
     named += preset.usual;
   }
+  for (const PassiveHybridPreset& preset : passive_hybrid_presets()) named += preset.usual;
   // Other tests may have read laws from files, which have none.
-  CHECK(more_model_names().size() == laws().size() - named + laws_of_files().size());
+  CHECK(more_model_names().size() ==
+        laws().size() + passive_hybrid_presets().size() - named + laws_of_files().size());
   CHECK(law_inside("bingham") == &find_law("bingham"));
   CHECK(law_inside("anfis") == nullptr);
   CHECK(message_of([] { model_info("arctan+netwrk"); }).find("did you mean 'arctan+network'") !=

@@ -9,6 +9,7 @@
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/law/example_law_text.h"
 #include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/passive_hybrid/passive_hybrid_example.h"
 #include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
@@ -121,6 +122,7 @@ inline std::vector<ExampleModel> example_models() {
                           {example_passive_network(1), example_passive_network(2)}, 2));
   add("fuzzy", example_fuzzy());
   add("hybrid", example_hybrid());
+  add("passive_hybrid", example_passive_hybrid());
   add("family_gated", example_family());
   add("family_residual", example_family(FamilyTarget::Residual));
   add("family_network", example_family_network());

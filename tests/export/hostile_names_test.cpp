@@ -214,6 +214,9 @@ std::vector<ExampleModel> models_named(const std::string& name) {
   const FuzzyModel fuzzy = example_fuzzy();
   add("fuzzy", FuzzyModel(or_known("takagi_sugeno"), fuzzy.inputs(), fuzzy.sugeno()));
   add("hybrid", example_hybrid());
+  add("passive_hybrid",
+      PassiveHybridModel(example_law(find_law("bouc_wen")),
+                         {or_known("passive_network"), {example_passive_network(1)}}, 0.5));
   add("family", example_family());
   add("law_of_file", law_saying(name.empty() ? "plain" : name));
   return models;

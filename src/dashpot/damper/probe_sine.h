@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -23,9 +25,11 @@ constexpr std::size_t kProbeSamples = 100;  // of a cycle
 /// speeds of the domain: a wheel behind a kerb of 3 cm is that much quicker than a bench.
 std::vector<ProbeSine> probe_sines(Domain domain, bool about_positions, bool unproven);
 
-/// Those by which a model is judged. Laws have their sets, passive networks their proof.
+/// Those by which a model is judged. Laws have their sets, passive networks their
+/// proof, and both together what these leave.
 inline std::vector<ProbeSine> probe_sines(const DamperModel& model, const Domain& domain) {
-  const bool unproven = model.kind() != ModelKind::Law && model.kind() != ModelKind::PassiveNetwork;
+  constexpr std::array kProven{ModelKind::Law, ModelKind::PassiveNetwork, ModelKind::PassiveHybrid};
+  const bool unproven = std::ranges::find(kProven, model.kind()) == kProven.end();
   return probe_sines(domain, model.needs_displacement(), unproven);
 }
 

@@ -17,6 +17,8 @@
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_hybrid/passive_hybrid_model.h"
+#include "dashpot/damper/kinds/passive_hybrid/presets.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
 #include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
@@ -58,6 +60,8 @@ constexpr std::array kKinds{
             read<passive_network_model_from_json>},
     KindRow{ModelKind::Fuzzy, list<fuzzy_presets>, read<fuzzy_model_from_json>},
     KindRow{ModelKind::Hybrid, list<hybrid_presets>, read<hybrid_model_from_json>},
+    KindRow{ModelKind::PassiveHybrid, list<passive_hybrid_presets>,
+            read<passive_hybrid_model_from_json>},
     KindRow{ModelKind::Family, list<family_presets>, read<family_model_from_json>},
 };
 

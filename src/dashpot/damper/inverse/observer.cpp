@@ -40,7 +40,9 @@ BareDamper without_coil_lag(const DamperModel& model) {
   const auto* hybrid = model_as<HybridModel>(model);
   if (const auto* family = model_as<FamilyModel>(model); family && family->member().lag_rate > 0)
     return {family->without_lag(), family->member().lag_rate};
-  if (!law || law->lag_rate() == 0) return {model.with_offset(0), 0};
+  // Beside a law, a network has a lag of its own: that of the law cannot stand for both.
+  const bool apart = model.kind() == ModelKind::PassiveHybrid;
+  if (!law || law->lag_rate() == 0 || apart) return {model.with_offset(0), 0};
   LawModel bare(law->law(), law->parameters(), law->drive_unit(), 0);
   if (!hybrid) return {std::make_unique<LawModel>(std::move(bare)), law->lag_rate()};
   return {std::make_unique<HybridModel>(HybridSource{std::move(bare), hybrid->source().bank},

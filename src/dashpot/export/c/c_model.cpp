@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/kinds/passive_hybrid/passive_hybrid_model.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/error.h"
@@ -44,6 +45,10 @@ CModel code_of_law(const DamperModel& model, bool settable) {
   return c_law(required<LawModel>(model), "model", settable);
 }
 
+CModel code_of_passive_network(const DamperModel& model, bool /*settable*/) {
+  return c_passive_network(required<PassiveNetworkModel>(model));
+}
+
 CModel code_of_family(const DamperModel& model, bool settable) {
   return c_family(required<FamilyModel>(model), settable);
 }
@@ -54,9 +59,10 @@ constexpr std::array kCodes{
     KindCode{ModelKind::Narx, code_of<NarxModel, c_narx>},
     KindCode{ModelKind::HysteresisNetwork, code_of<HysteresisNetworkModel, c_hysteresis_network>},
     KindCode{ModelKind::StateSpace, code_of<StateSpaceModel, c_state_space>},
-    KindCode{ModelKind::PassiveNetwork, code_of<PassiveNetworkModel, c_passive_network>},
+    KindCode{ModelKind::PassiveNetwork, code_of_passive_network},
     KindCode{ModelKind::Fuzzy, code_of<FuzzyModel, c_fuzzy>},
     KindCode{ModelKind::Hybrid, code_of<HybridModel, c_hybrid>},
+    KindCode{ModelKind::PassiveHybrid, code_of<PassiveHybridModel, c_passive_hybrid>},
     KindCode{ModelKind::Family, code_of_family},
 };
 

@@ -16,6 +16,7 @@ class HysteresisNetworkModel;
 class LawModel;
 class NarxModel;
 class NetworkModel;
+class PassiveHybridModel;
 class PassiveNetworkModel;
 class StateSpaceModel;
 struct GatedNetwork;
@@ -51,16 +52,17 @@ bool has_settable(const DamperModel& model);
 /// of a family in that order; model_defaults(state) writes them.
 CModel c_model(const DamperModel& model, bool settable = false);
 
-// One per kind, each in the file of its name; `stem` in place of "model" where a law is a part of
+// One per kind, each in the file of its name; `stem` in place of "model" where a model is a part of
 // something.
 CModel c_law(const LawModel& model, const std::string& stem = "model", bool settable = false);
 CModel c_network(const NetworkModel& model);
 CModel c_narx(const NarxModel& model);
 CModel c_hysteresis_network(const HysteresisNetworkModel& model);
 CModel c_state_space(const StateSpaceModel& model);
-CModel c_passive_network(const PassiveNetworkModel& model);
+CModel c_passive_network(const PassiveNetworkModel& model, const std::string& stem = "model");
 CModel c_fuzzy(const FuzzyModel& model);
 CModel c_hybrid(const HybridModel& model);
+CModel c_passive_hybrid(const PassiveHybridModel& model);
 CModel c_family(const FamilyModel& model, bool settable = false);
 /// Behind a settable c_family() by physics: double family_plate_flow(const DamperInput* input,
 /// const double* state), the force of the plate flow alone, N, without what the fit has learnt.

@@ -47,7 +47,7 @@ Member member_text(const PassiveNetwork& n, const std::string& name) {
 }
 
 constexpr std::string_view kFunctions = R"(
-static void model_rest(const DamperInput* input, double* state) {
+static void @stem@_rest(const DamperInput* input, double* state) {
   int m, at = 0;
   for (m = 0; m < @count@; ++m) {
     passive_rest(&kPassiveCells[m], input, &state[at]);
@@ -55,7 +55,7 @@ static void model_rest(const DamperInput* input, double* state) {
   }
 }
 
-static void model_advance(const DamperInput* from, const DamperInput* to, double dt,
+static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
                           double* state) {
   int m, at = 0;
   for (m = 0; m < @count@; ++m) {
@@ -64,7 +64,7 @@ static void model_advance(const DamperInput* from, const DamperInput* to, double
   }
 }
 
-static double model_force(const DamperInput* input, const double* state) {
+static double @stem@_force(const DamperInput* input, const double* state) {
   double sum = 0;
   int m, at = 0;
   for (m = 0; m < @count@; ++m) {
@@ -77,7 +77,7 @@ static double model_force(const DamperInput* input, const double* state) {
 
 }  // namespace
 
-CModel c_passive_network(const PassiveNetworkModel& model) {
+CModel c_passive_network(const PassiveNetworkModel& model, const std::string& stem) {
   std::size_t inputs = 1, neurons = 1, springs = 1;
   std::string tables, rows;
   for (std::size_t m = 0; m < model.members().size(); ++m) {
@@ -97,7 +97,8 @@ CModel c_passive_network(const PassiveNetworkModel& model) {
           define("PASSIVE_MOST_SPRINGS", springs) + "\n#include \"passive_cell.h\"\n" + tables +
           "static const PassiveCell kPassiveCells[] = {\n" + rows + "};\n" +
           filled(std::string(kFunctions),
-                 {{"count", CText::own(std::to_string(model.members().size()))},
+                 {{"stem", CText::own(stem)},
+                  {"count", CText::own(std::to_string(model.members().size()))},
                   {"offset", CText::own(c_number(model.offset()))}})};
 }
 

@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_hybrid/presets.h"
 #include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/registry.h"
@@ -66,6 +67,8 @@ constexpr std::array kFits{
             always<kOfPassive>},
     KindFit{ModelKind::Fuzzy, fit_preset<fuzzy_presets, fit_fuzzy>, always<kNone>},
     KindFit{ModelKind::Hybrid, fit_preset<hybrid_presets, fit_hybrid>, always<kNone>},
+    KindFit{ModelKind::PassiveHybrid, fit_preset<passive_hybrid_presets, fit_passive_hybrid>,
+            always<kOfPassive>},
     KindFit{ModelKind::Family, fit_preset<family_presets, fit_family>, settings_of_family,
             Trainer::Adam},
 };

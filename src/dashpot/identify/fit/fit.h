@@ -20,6 +20,7 @@ struct HysteresisNetworkPreset;
 struct Law;
 struct NarxPreset;
 struct NetworkPreset;
+struct PassiveHybridPreset;
 struct PassiveNetworkPreset;
 struct StateSpacePreset;
 
@@ -47,6 +48,8 @@ FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& traini
                     DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,
                      DriveUnit drive_unit, const IdentifyOptions& options);
+FitReport fit_passive_hybrid(const PassiveHybridPreset& preset, const std::vector<Record>& training,
+                             DriveUnit drive_unit, const IdentifyOptions& options);
 /// Needs the conditions of a whole family member on each record. Throws Error where one is missing.
 FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
                      DriveUnit drive_unit, const IdentifyOptions& options);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
@@ -12,6 +11,7 @@
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/member_report.h"
+#include "dashpot/identify/fit/passive_network_fit.h"
 #include "dashpot/identify/judge/stroke.h"
 
 namespace dashpot {
@@ -60,9 +60,6 @@ std::size_t trial_updates(const NetworkDesign& design) {
 
 /// Whether networks read the drive within its levels only.
 bool reads_levels(const DriveRange& drive) { return !drive.varies && drive.levels > 1; }
-
-/// Places of the records that a trial does without.
-using HeldBack = std::set<std::size_t>;
 
 /// Motions in turn, dealt to kMostMotions groups; a single one cannot be held back.
 std::vector<HeldBack> motions_in_turn(const std::vector<Record>& records) {
@@ -155,7 +152,8 @@ PassiveNetworkPreset designed(PassiveNetworkPreset preset, const NetworkDesign& 
 class PassiveNetworkFit {
  public:
   PassiveNetworkFit(const PassiveNetworkPreset& preset, const std::vector<Record>& training,
-                    DriveUnit drive_unit, const IdentifyOptions& options)
+                    DriveUnit drive_unit, const IdentifyOptions& options,
+                    std::optional<double> decay)
       : preset_(designed(preset, options.network)), options_(options) {
     const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
     Records as_recorded;
@@ -164,8 +162,10 @@ class PassiveNetworkFit {
     start_ = scaled_network(preset_, as_recorded, drive);
     records_ = at_step(as_recorded, start_.model_step);
     for (const FreeRunRecord& record : records_) all_.push_back(&record);
-    decay_ = best_weight_decay(motions_in_turn(training), end_levels_in_turn(training, drive));
+    decay_ = decay ? *decay : best_weight_decay(held_back_parts(training, drive));
   }
+
+  double decay() const { return decay_; }
 
   struct Member {
     PassiveNetwork network;
@@ -231,9 +231,8 @@ class PassiveNetworkFit {
 
   /// The decay that does best where motions and where the drive's ends are held back in turn; both
   /// count alike.
-  double best_weight_decay(const std::vector<HeldBack>& motions,
-                           const std::vector<HeldBack>& ends) const {
-    const auto by_motion = left_of(motions), by_end = left_of(ends);
+  double best_weight_decay(const HeldBackParts& parts) const {
+    const auto by_motion = left_of(parts.motions), by_end = left_of(parts.ends);
     std::array<double, kWeightDecays.size()> both{};
     for (std::size_t k = 0; k < both.size(); ++k) both[k] = by_motion[k] + by_end[k];
     return kWeightDecays[static_cast<std::size_t>(std::ranges::min_element(both) - both.begin())];
@@ -249,6 +248,16 @@ class PassiveNetworkFit {
 
 }  // namespace
 
+HeldBackParts held_back_parts(const std::vector<Record>& training, const DriveRange& drive) {
+  return {motions_in_turn(training), end_levels_in_turn(training, drive)};
+}
+
+NetworkDesign trial_design(NetworkDesign design) {
+  design.epochs = trial_updates(design);
+  design.members = 1;
+  return design;
+}
+
 double passive_training_steps(const PassiveNetworkPreset& preset,
                               const std::vector<Record>& training, DriveUnit drive_unit,
                               const NetworkDesign& design) {
@@ -258,24 +267,31 @@ double passive_training_steps(const PassiveNetworkPreset& preset,
   const DriveRange drive = drive_range(training, drive_unit);
 
   // The members, and the trials of each decay on each part held back.
-  const std::size_t trials =
-      motions_in_turn(training).size() + end_levels_in_turn(training, drive).size();
+  const HeldBackParts parts = held_back_parts(training, drive);
+  const std::size_t trials = parts.motions.size() + parts.ends.size();
   const std::size_t updates = designed(preset, design).members * member_updates(design) +
                               trials * kWeightDecays.size() * trial_updates(design);
   return static_cast<double>(updates * window_samples(network_step(records, drive.varies)));
 }
 
-FitReport fit_passive_network(const PassiveNetworkPreset& preset,
-                              const std::vector<Record>& training, DriveUnit drive_unit,
-                              const IdentifyOptions& options) {
-  const std::vector<PassiveNetworkFit::Member> members =
-      PassiveNetworkFit(preset, training, drive_unit, options).members();
+PassiveNetworkTraining train_passive_network(const PassiveNetworkPreset& preset,
+                                             const std::vector<Record>& training,
+                                             DriveUnit drive_unit, const IdentifyOptions& options,
+                                             std::optional<double> decay) {
+  const PassiveNetworkFit fit(preset, training, drive_unit, options, decay);
+  const std::vector<PassiveNetworkFit::Member> members = fit.members();
   FitReport report = report_of_members(members);
   std::vector<PassiveNetwork> networks;
   for (const PassiveNetworkFit::Member& member : members) networks.push_back(member.network);
   report.model =
       std::make_shared<PassiveNetworkModel>(std::string(preset.name), std::move(networks));
-  return report;
+  return {std::move(report), fit.decay()};
+}
+
+FitReport fit_passive_network(const PassiveNetworkPreset& preset,
+                              const std::vector<Record>& training, DriveUnit drive_unit,
+                              const IdentifyOptions& options) {
+  return train_passive_network(preset, training, drive_unit, options).report;
 }
 
 }  // namespace dashpot
