@@ -78,23 +78,27 @@ TEST_CASE(
 TEST_CASE(
     "design by a family: one with a memory is told in a sine of the stroke of its recordings") {
   const TemporaryFolder folder;
-  const FamilyModel family = resisting_family();
-  const auto model = make_design_model(family_file(folder, family), "--model");
   const DamperDescription drawn = named_description("family_prototype");
-  const DamperOperation at{0.7, 0.02};
-  // The same motion, run for twenty cycles in steps a tenth as long.
-  const auto damper = family.with_member(member_of(drawn, std::vector<double>{0, 0.7}));
-  const double rate = 0.02 / 0.02, step = 2 * 3.14159265358979 / rate / 1000;
-  std::vector<double> state(damper->state_size());
-  DamperInput now{0, 0.02, 0.7};
-  damper->rest(now, state);
-  for (int k = 1; k <= 20000; ++k) {
-    const double phase = rate * step * k;
-    const DamperInput next{0.02 * std::sin(phase), 0.02 * std::cos(phase), 0.7};
-    damper->advance(now, next, step, state);
-    now = next;
-  }
-  CHECK_CLOSE(model->evaluate(drawn, at).force, damper->force(now, state), 2e-3, 0);
+  for (const FamilyModel& family : {resisting_family(), example_family_physics()})
+    for (const DamperOperation at :
+         {DamperOperation{0.7, 0.02}, {0.7, -0.05}, {0.2, 0.001}, {0.7, 0.02, 0.01}}) {
+      CAPTURE(family.name());
+      CAPTURE(at.velocity);
+      // The same motion, run for twenty cycles in steps a tenth as long or less.
+      const auto damper = family.with_member(member_of(drawn, std::vector<double>{0, at.current}));
+      const double rate = std::abs(at.velocity) / 0.02, size = std::hypot(0.02, at.displacement);
+      const double end = std::atan2(at.displacement, std::copysign(0.02, at.velocity)),
+                   step = 2 * 3.14159265358979 / 1000;
+      std::vector<double> state(damper->state_size());
+      const auto input = [&](int k) {
+        return DamperInput{size * std::sin(end + k * step), size * rate * std::cos(end + k * step),
+                           at.current};
+      };
+      damper->rest(input(0), state);
+      for (int k = 1; k <= 20000; ++k) damper->advance(input(k - 1), input(k), step / rate, state);
+      const auto model = make_design_model(family_file(folder, family), "--model", true);
+      CHECK_CLOSE(model->evaluate(drawn, at).force, damper->force(input(0), state), 2e-3, 0);
+    }
 }
 
 TEST_CASE("design beyond a family: marked, or kept within it by a constraint of its own") {

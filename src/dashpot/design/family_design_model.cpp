@@ -9,6 +9,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/family/line_family.h"
 #include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/design/design_model.h"
 #include "dashpot/error.h"
@@ -30,22 +31,34 @@ class BenchSine {
     // x = a sin(w t): a^2 = half_stroke^2 + x^2, w half_stroke = |v| at the place.
     amplitude_ = std::hypot(half_stroke, at.displacement);
     rate_ = std::abs(at.velocity) / half_stroke;
-    if (model.member().lag_rate == 0)
-      physics_ = dynamic_cast<const PhysicsFamily*>(model.family().force.get());
+    physics_ = dynamic_cast<const PhysicsFamily*>(model.family().force.get());
     if (physics_) element_ = physics_->physics().element(model.member(), at.current);
   }
-  void rest(double phase) { model_.rest(input(phase), state_); }
+  /// Springs as they rest; a remembered square of the speed, q' = (v^2 - q) / t, as this sine has
+  /// long made it, which from rest would take cycles.
+  void rest(double phase) {
+    model_.rest(input(phase), state_);
+    const auto* line = dynamic_cast<const LineFamily*>(model_.family().force.get());
+    if (!line && !physics_) return;
+    const double time = line ? line->line().period() : element_.time, speed = amplitude_ * rate_;
+    const double late = 2 * rate_ * time;
+    state_[line ? 0 : 2] =
+        0.5 * speed * speed *
+        (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
+  }
   BenchForce force(double phase) const {
     return {model_.force(input(phase), state_), model_.spread(input(phase), state_)};
   }
 
   void run(double from, double to) {
-    constexpr double kOfCycle = 100, kRounding = 1e-9;
+    constexpr double kRounding = 1e-9;
+    const int of_cycle = physics_ ? 40 : 100;  // whose steps are of order two, and the dearest
     const double cycles = (to - from) / (2 * std::numbers::pi);
-    const int steps = static_cast<int>(std::ceil(cycles * kOfCycle - kRounding));
+    const int steps = static_cast<int>(std::ceil(cycles * of_cycle - kRounding));
     const double step = (to - from) / steps;
 
-    // A damper of plate flow at a constant current is one element for all steps.
+    // A damper of plate flow at a constant current, whose coil does not lag, is one element for all
+    // steps.
     if (physics_) {
       std::vector<double> speeds;
       for (int k = 0; k <= steps; ++k) speeds.push_back(input(from + k * step).velocity);
