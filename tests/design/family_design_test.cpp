@@ -23,23 +23,26 @@ goals: [{maximise: gap}]
 )";
 
 /// The example's file, of a family that was driven up to 1 A, 50 mm/s and 20 mm.
-std::string family_file(const TemporaryFolder& folder, const FamilyModel& model) {
+std::string family_file(const TemporaryFolder& folder, const FamilyModel& model,
+                        const std::optional<ForceBand>& band = {}) {
   const auto path = folder.path() / "family.json";
   ModelFile file;
   file.model = model.with_offset(0);
+  file.interval = band;
   file.domain = {-0.02, 0.02, -0.05, 0.05, 0, 1};
   save_model(file, path);
   return path.string();
 }
 
 /// A family whose force resists the motion everywhere, up to 1 A, and falls a little with the gap.
-FamilyModel resisting_family() {
+/// by_current: the logarithm of what 1 A makes of it, or less than nothing.
+FamilyModel resisting_family(double by_current = 0.2) {
   FamilyLine line;
   line.gap = 1e-3;
   line.pole_length = 6e-3;
   line.viscosity = 0.28;
   line.slow = 1e-3;
-  line.size = {2, 0.2, 0, 0, 0.1, -0.5};
+  line.size = {2, by_current, 0, 0, 0.1, -0.5};
   line.phase.assign(6, 0.);
   return {std::make_shared<Family>(family_of(std::make_shared<LineFamily>(line))),
           example_member()};
@@ -75,27 +78,32 @@ TEST_CASE(
 TEST_CASE(
     "design by a family: one with a memory is told in a sine of the stroke of its recordings") {
   const TemporaryFolder folder;
-  const auto model = make_design_model(family_file(folder, example_family()), "--model");
   const DamperDescription drawn = named_description("family_prototype");
-  const DamperOperation at{0.7, 0.02};
-  // The same motion, run for twenty cycles in steps a tenth as long.
-  const auto damper = example_family().with_member(member_of(drawn, 0.7));
-  const double rate = 0.02 / 0.02, step = 2 * 3.14159265358979 / rate / 1000;
-  std::vector<double> state(damper->state_size());
-  DamperInput now{0, 0.02, 0.7};
-  damper->rest(now, state);
-  for (int k = 1; k <= 20000; ++k) {
-    const double phase = rate * step * k;
-    const DamperInput next{0.02 * std::sin(phase), 0.02 * std::cos(phase), 0.7};
-    damper->advance(now, next, step, state);
-    now = next;
-  }
-  CHECK_CLOSE(model->evaluate(drawn, at).force, damper->force(now, state), 2e-3, 0);
+  for (const FamilyModel& family : {resisting_family(), example_family_physics()})
+    for (const DamperOperation at :
+         {DamperOperation{0.7, 0.02}, {0.7, -0.05}, {0.2, 0.001}, {0.7, 0.02, 0.01}}) {
+      CAPTURE(family.name());
+      CAPTURE(at.velocity);
+      // The same motion, run for twenty cycles in steps a tenth as long or less.
+      const auto damper = family.with_member(member_of(drawn, std::vector<double>{0, at.current}));
+      const double rate = std::abs(at.velocity) / 0.02, size = std::hypot(0.02, at.displacement);
+      const double end = std::atan2(at.displacement, std::copysign(0.02, at.velocity)),
+                   step = 2 * 3.14159265358979 / 1000;
+      std::vector<double> state(damper->state_size());
+      const auto input = [&](int k) {
+        return DamperInput{size * std::sin(end + k * step), size * rate * std::cos(end + k * step),
+                           at.current};
+      };
+      damper->rest(input(0), state);
+      for (int k = 1; k <= 20000; ++k) damper->advance(input(k - 1), input(k), step / rate, state);
+      const auto model = make_design_model(family_file(folder, family), "--model", true);
+      CHECK_CLOSE(model->evaluate(drawn, at).force, damper->force(input(0), state), 2e-3, 0);
+    }
 }
 
 TEST_CASE("design beyond a family: marked, or kept within it by a constraint of its own") {
   const TemporaryFolder folder;
-  const std::string file = family_file(folder, example_family());
+  const std::string file = family_file(folder, resisting_family());
   const DesignReport marked = designed_by_family(kRequest, {.model = file});
   REQUIRE(marked.designs.size() == 1);
   CHECK_CLOSE(marked.designs[0].damper.gap, 3e-3, 1e-6, 0);
@@ -211,6 +219,81 @@ TEST_CASE("design by a family: a force that does not resist, or leaps from physi
   const std::string wrong =
       family_file(folder, FamilyModel(std::make_shared<Family>(family), example_member()));
   CHECK(std::isnan(make_design_model(wrong, "--model", true)->evaluate(drawn, at).force));
+}
+
+TEST_CASE(
+    "design by a family: whatever the goal, a force that the current takes away is no design's") {
+  // None of these asks for a force: mass, a field, and one of another model.
+  const TemporaryFolder folder;
+  const std::string falling = family_file(folder, resisting_family(-0.5));
+  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals"));
+  for (const char* goal : {"minimise: mass", "maximise: gap", "minimise: power", "maximise: force"})
+    for (const bool insist : {false, true}) {
+      CAPTURE(goal);
+      const DesignReport report = designed_by_family(request + "goals: [{" + goal + "}]",
+                                                     {.model = falling, .insist = insist});
+      CHECK(report.designs.empty());
+      REQUIRE(report.conflict);
+      CHECK(report.conflict->refused);
+      CHECK_FALSE(report.conflict->undrawable);
+      CHECK(contains(design_verdict(report), "do not refuse"));
+      CHECK(std::ranges::any_of(report.notes, [](const std::string& note) {
+        return contains(note, "less with the current than without");
+      }));
+    }
+
+  // Nor one that stands beside physics; nor where nothing is asked to move.
+  CHECK(designed_by_family(request + "goals: [{minimise: mass}]",
+                           {.model = "physics", .second = falling})
+            .designs.empty());
+  std::string still = request + "goals: [{minimise: mass}]";
+  still.erase(still.find("at:"), still.find("vary") - still.find("at:"));
+  CHECK(designed_by_family(still, {.model = falling}).designs.empty());
+  CHECK(designed_by_family(still, {.model = family_file(folder, resisting_family())})
+            .designs.size() == 1);
+}
+
+TEST_CASE(
+    "design by a family: what is asked of a force is met at the pessimistic end of its band") {
+  const TemporaryFolder folder;
+  const FamilyModel family = resisting_family();
+  const ForceBand band{.records = 9, .drives = {0, 1}, .half_width = {0.1, 0.5}, .spread = 2};
+  const std::string file = family_file(folder, family, band);
+  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) +
+                              R"(
+constraints:
+  - {quantity: force, min: 0.1 N, max: 100 N}
+  - {quantity: off_force, min: 0.1 N, max: 100 N}
+  - {quantity: dynamic_range, min: 0.1, max: 100}
+  - {quantity: controllable_force, min: -100 N}
+goals: [{maximise: dynamic_range}, {minimise: force}]
+)";
+  const DesignReport report =
+      designed_by_family(request, {.points = 4, .generations = 2, .model = file});
+  REQUIRE(!report.designs.empty());
+  CHECK(contains(report.notes.front(), "pessimistic end of its band"));
+  const Design& design = report.designs.front();
+
+  // The middle, and half the widths with those of the family's builds.
+  const DamperOperation at = report.request.goals.front().at;
+  const DamperPhysics told = make_design_model(file, "--model")->evaluate(design.damper, at);
+  const double spread = family.family().build_spread;
+  const double on = std::hypot(0.3, 2 * spread * told.force),
+               off = std::hypot(0.1, 2 * spread * told.off_force);
+  const double low = (told.force - on) / (told.off_force + off),
+               high = (told.force + on) / (told.off_force - off);
+  const std::vector<double> expected{told.force - on,
+                                     told.force + on,
+                                     told.off_force - off,
+                                     told.off_force + off,
+                                     low,
+                                     high,
+                                     told.force - on - told.off_force - off};
+  REQUIRE(design.assessment.constraints.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    CHECK_CLOSE(design.assessment.constraints[k], expected[k], 1e-9, 1e-12);
+  CHECK_CLOSE(design.assessment.goals[0], low, 1e-9, 0);
+  CHECK_CLOSE(design.assessment.goals[1], told.force + on, 1e-9, 0);
 }
 
 TEST_CASE("design by a family: what cannot be reached is said without the robust search") {

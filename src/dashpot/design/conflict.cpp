@@ -9,13 +9,18 @@
 namespace dashpot {
 namespace {
 
-bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted,
-              OptimiseOptions options, Conflict& conflict) {
+Optimum nearest_of(const DesignProblem& problem, const std::vector<bool>& counted,
+                   OptimiseOptions options, Conflict& conflict) {
   options.counted = counted;
   const Optimum optimum = least_violation(problem, options);
   conflict.evaluations += optimum.evaluations;
   conflict.stopped = conflict.stopped || optimum.stopped;
-  return optimum.violation == 0;
+  return optimum;
+}
+
+bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted,
+              const OptimiseOptions& options, Conflict& conflict) {
+  return nearest_of(problem, counted, options, conflict).violation == 0;
 }
 
 /// The best figure of a constraint while the other members hold, and its place.
@@ -65,13 +70,17 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
   conflict.nearest = found;
 
   // Many searches follow, each for something easier than the whole.
-  OptimiseOptions options = asked;  // many searches, each for what is easier than the whole
-  options.starts = 4;
-  options.evaluations = 250;
+  OptimiseOptions options = asked;
+  options.starts = options.starts * 2 / 3;
+  options.evaluations = options.evaluations * 5 / 8;
 
-  // With no constraint counted, only dampers that cannot be drawn stand in the way.
-  if (!can_hold(problem, std::vector<bool>(count, false), options, conflict)) {
-    conflict.undrawable = !conflict.stopped;
+  // With no constraint counted, only dampers that cannot be drawn, or are refused, stand in the
+  // way.
+  const Optimum any = nearest_of(problem, std::vector<bool>(count, false), options, conflict);
+  if (any.violation > 0) {
+    const bool drawable = problem.assess(problem.damper_at(any.place)).possible;
+    conflict.undrawable = !conflict.stopped && !drawable;
+    conflict.refused = !conflict.stopped && drawable;
     return conflict;
   }
 
@@ -96,6 +105,9 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
 std::string describe(const Conflict& conflict, const DesignRequest& request) {
   if (conflict.undrawable)
     return "no damper of these ranges can be drawn: the parts do not fit into each other";
+  if (conflict.refused)
+    return "none of the dampers of these ranges that were tried has a force that its models do not "
+           "refuse, and goals that have a figure";
   std::string text;
   for (std::size_t m = 0; m < conflict.members.size(); ++m) {
     const DesignConstraint& own = request.constraints[conflict.members[m]];

@@ -9,6 +9,9 @@ namespace dashpot {
 /// Why a request has no design. Figures in SI, in the unit of their constraint's quantity.
 struct Conflict {
   bool undrawable = false;  ///< no damper of the ranges can be drawn, whatever is asked of it
+  /// A model refuses the force of every damper of the ranges that can be drawn, or a goal has no
+  /// figure there.
+  bool refused = false;
   /// Indices of constraints that cannot hold together, while any one less can.
   std::vector<std::size_t> members;
   /// The best figure of each member while the other members hold; NaN where none was found.

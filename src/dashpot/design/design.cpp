@@ -32,6 +32,7 @@ class DesignRun {
   DesignReport run();
 
  private:
+  bool is_fitted() const;
   OptimiseOptions search_options(const std::string& stage, double from, double to);
   std::vector<std::vector<double>> best_of_each_goal();
   /// The places of the designs to go on from, as far as they hold the constraints.
@@ -57,6 +58,10 @@ class DesignRun {
 void DesignRun::note_limits() {
   for (const DesignModel* model : {model_.get(), second_.get()}) {
     if (!model || !model->is_fitted()) continue;
+    if (model->has_band())
+      report_.notes.push_back(model->name() +
+                              ": what is asked of its forces is met, and told, at the pessimistic "
+                              "end of its band");
     const std::vector<std::string> beyond = operations_beyond(report_.request, *model);
     if (report_.options.refuse_outside && !beyond.empty())
       throw Error("the request", join(beyond, "; "),
@@ -72,6 +77,12 @@ void DesignRun::note_limits() {
   }
 }
 
+bool DesignRun::is_fitted() const {
+  return model_->is_fitted() || (second_ && second_->is_fitted());
+}
+
+/// A fitted model runs through a cycle of motion for each force, where physics has an equation: its
+/// searches are shorter, and end where its error has long been more than their steps.
 OptimiseOptions DesignRun::search_options(const std::string& stage, double from, double to) {
   const Monitor& monitor = report_.options.monitor;
   if (!report_.stopped) try {
@@ -84,7 +95,15 @@ OptimiseOptions DesignRun::search_options(const std::string& stage, double from,
                  monitor.on_progress({own.stage, from + own.fraction * (to - from)});
              },
              monitor.stop};
-  return {.seed = report_.options.seed, .threads = report_.options.threads, .monitor = &staged_};
+  OptimiseOptions options{
+      .seed = report_.options.seed, .threads = report_.options.threads, .monitor = &staged_};
+  if (is_fitted()) {
+    options.starts = 3;
+    options.evaluations = 100;
+    options.looks = 50;
+    options.step = 1e-6;
+  }
+  return options;
 }
 
 std::vector<std::vector<double>> DesignRun::best_of_each_goal() {
@@ -170,8 +189,8 @@ std::vector<std::vector<double>> DesignRun::explain() {
 
 bool DesignRun::is_hopeless() {
   constexpr double kFar = 0.1;  // of a bound: more than tolerances could mend
-  const bool fitted = model_->is_fitted() || (second_ && second_->is_fitted());
-  if (!fitted || report_.request.constraints.empty() || report_.request.share == 0) return false;
+  if (!is_fitted() || report_.request.constraints.empty() || report_.request.share == 0)
+    return false;
 
   // A few searches of the same request for the drawing alone.
   DesignRequest drawn = report_.request;
@@ -200,8 +219,8 @@ bool DesignRun::is_hopeless() {
 }
 
 void DesignRun::compare(Design& design) const {
-  design.first = problem_.figures(design.damper, model_.get());
-  design.second = problem_.figures(design.damper, second_.get());
+  design.first = problem_.middle_figures(design.damper, *model_);
+  design.second = problem_.middle_figures(design.damper, *second_);
   for (std::size_t k = 0; k < design.first.size(); ++k) {
     const double share = std::abs(design.second[k] / design.first[k] - 1);
     if (std::isfinite(share)) design.disagreement = std::max(design.disagreement, share);
@@ -305,7 +324,9 @@ DesignReport DesignRun::run() {
   for (const DesignModel* model : {model_.get(), second_.get()})
     if (model && model->has_refused())
       report_.notes.push_back(
-          model->name() + " was refused wherever its force does not resist the motion" +
+          model->name() +
+          " was refused wherever its force does not resist the motion, or less with the current "
+          "than without" +
           (report_.options.insist
                ? ""
                : fmt::format(", or lies {} times further from the plate flow's than at a damper of "

@@ -36,7 +36,8 @@ struct Design {
   std::string name;  ///< "design_001"
   DamperDescription damper;
   Assessment assessment;
-  /// With a second model: all figures of the drawing by each model, goals and then constraints.
+  /// With a second model: all figures of the drawing by each model, in the middle of its band,
+  /// goals and then constraints.
   std::vector<double> first, second;
   double disagreement = 0;  ///< the largest difference of the two, in shares of the first's
   std::string role;         ///< what makes it stand out: "largest force", "knee"; else empty

@@ -14,12 +14,12 @@ class PhysicsModel final : public DesignModel {
   PhysicsModel(std::string name, std::optional<FlowLaw> flow)
       : name_(std::move(name)), flow_(flow) {}
   std::string name() const override { return name_; }
-  DamperPhysics evaluate(const DamperDescription& description,
-                         const DamperOperation& operation) const override {
-    if (!flow_) return evaluate_physics(description, operation);
+  Appraisal appraise(const DamperDescription& description,
+                     const DamperOperation& operation) const override {
+    if (!flow_) return {.physics = evaluate_physics(description, operation)};
     DamperDescription other = description;
     other.flow_law = *flow_;
-    return evaluate_physics(other, operation);
+    return {.physics = evaluate_physics(other, operation)};
   }
 
  private:

@@ -69,7 +69,7 @@ double slack_of(const DesignConstraint& constraint, double figure) {
   const double scale = constraint.bound == 0 ? 1 : std::abs(constraint.bound);
   const double slack =
       (constraint.at_least ? figure - constraint.bound : constraint.bound - figure) / scale;
-  return std::isnan(slack) ? -kImpossible : std::max(slack, -kImpossible);
+  return std::isfinite(slack) ? std::max(slack, -kImpossible) : -kImpossible;
 }
 
 }  // namespace
@@ -77,24 +77,54 @@ double slack_of(const DesignConstraint& constraint, double figure) {
 DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model,
                              std::uint64_t seed, const DesignModel* second)
     : request_(request), model_(model), second_(second) {
-  // The same operation by the same model is evaluated once, whoever asks for it.
-  const auto place = [&](const DamperOperation& at, ToldBy by) {
-    if (by == ToldBy::Second && !second)
-      throw Error("the request", "asks for figures by a second model, and there is none",
-                  "name one");
-    const auto found = std::ranges::find_if(
-        questions_, [&](const Question& known) { return same(known.at, at) && known.by == by; });
-    question_of_.push_back(static_cast<std::size_t>(found - questions_.begin()));
-    if (found == questions_.end()) questions_.push_back({at, by});
-  };
-  for (const DesignGoal& goal : request.goals) place(goal.at, goal.by);
+  for (const DesignGoal& goal : request.goals) question_of_.push_back(ask(goal.at, goal.by));
   for (const DesignConstraint& constraint : request.constraints)
-    place(constraint.at, constraint.by);
+    question_of_.push_back(ask(constraint.at, constraint.by));
+  ask_fitted();
 
   // A robust request judges each drawing by the same dampers made.
   if (request.share > 0)
     made_with_ =
         draw_made(static_cast<std::size_t>(request.samples), request.tolerances.size(), seed);
+}
+
+/// The same operation by the same model is evaluated once, whoever asks for it.
+std::size_t DesignProblem::ask(const DamperOperation& at, ToldBy by) {
+  if (by == ToldBy::Second && !second_)
+    throw Error("the request", "asks for figures by a second model, and there is none", "name one");
+  const auto found = std::ranges::find_if(
+      questions_, [&](const Question& known) { return same(known.at, at) && known.by == by; });
+  const auto place = static_cast<std::size_t>(found - questions_.begin());
+  if (place == questions_.size()) questions_.push_back({at, by});
+  return place;
+}
+
+/// A fitted model tells its force wherever a moving damper is asked for anything, be it mass, and
+/// where none moves, at the end of what it was fitted on: a drawing whose force it refuses is no
+/// design.
+void DesignProblem::ask_fitted() {
+  for (const auto& [model, by] :
+       {std::pair{&model_, ToldBy::First}, std::pair{second_, ToldBy::Second}}) {
+    if (!model || !model->is_fitted()) continue;
+    bool moves = false;
+    for (std::size_t k = 0; k < questions_.size(); ++k) {
+      const DamperOperation at = questions_[k].at;
+      if (at.velocity == 0) continue;
+      moves = true;
+      ask(at, by);
+    }
+    if (!moves) ask(model->usual_operation(), by);
+  }
+}
+
+const DesignQuantity& DesignProblem::quantity_of(std::size_t k) const {
+  const std::size_t goals = request_.goals.size();
+  return k < goals ? *request_.goals[k].quantity : *request_.constraints[k - goals].quantity;
+}
+
+bool DesignProblem::is_wanted_large(std::size_t k) const {
+  const std::size_t goals = request_.goals.size();
+  return k < goals ? request_.goals[k].maximise : request_.constraints[k - goals].at_least;
 }
 
 std::size_t DesignProblem::level_at(std::size_t k, double place) const {
@@ -176,28 +206,44 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn,
   return damper;
 }
 
-std::vector<double> DesignProblem::figures(const DamperDescription& damper,
-                                           const DesignModel* all_by) const {
-  // The model that answers a question: the one asked for, or one for all.
-  const auto asked = [&](const Question& question) -> const DesignModel& {
-    if (all_by) return *all_by;
+/// The end of the band at which a figure that is wanted large, or small, is worst.
+const DamperPhysics& pessimistic(const Appraisal& told, const DesignQuantity& quantity,
+                                 bool large) {
+  if (!told.weak || !quantity.has_band()) return told.physics;
+  const bool falls = quantity.physics == &DamperPhysics::off_force;  // from weak to strong
+  return large != falls ? *told.weak : *told.strong;
+}
+
+std::vector<double> DesignProblem::figures(const DamperDescription& damper) const {
+  const auto model_of = [&](const Question& question) -> const DesignModel& {
     return question.by == ToldBy::Second ? *second_ : model_;
   };
 
-  // The physics once for each question.
-  std::vector<DamperPhysics> physics;
-  for (const Question& question : questions_)
-    physics.push_back(asked(question).evaluate(damper, question.at));
+  // Each question once. One force that a model refuses leaves no figure.
+  std::vector<Appraisal> told;
+  for (const Question& question : questions_) {
+    told.push_back(model_of(question).appraise(damper, question.at));
+    if (told.back().refused) return std::vector<double>(question_of_.size(), NAN);
+  }
 
   // Every goal and constraint reads its figure from the answer to its question.
   std::vector<double> figures;
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
-    const std::size_t goals = request_.goals.size();
     const Question& question = questions_[question_of_[k]];
-    const DesignQuantity& quantity =
-        k < goals ? *request_.goals[k].quantity : *request_.constraints[k - goals].quantity;
-    figures.push_back(
-        quantity.of({damper, question.at, physics[question_of_[k]], asked(question)}));
+    const DesignQuantity& quantity = quantity_of(k);
+    const DamperPhysics& physics = pessimistic(told[question_of_[k]], quantity, is_wanted_large(k));
+    figures.push_back(quantity.of({damper, question.at, physics, model_of(question)}));
+  }
+  return figures;
+}
+
+std::vector<double> DesignProblem::middle_figures(const DamperDescription& damper,
+                                                  const DesignModel& model) const {
+  std::vector<double> figures;
+  for (std::size_t k = 0; k < question_of_.size(); ++k) {
+    const DamperOperation& at = questions_[question_of_[k]].at;
+    const DamperPhysics physics = model.evaluate(damper, at);
+    figures.push_back(quantity_of(k).of({damper, at, physics, model}));
   }
   return figures;
 }
@@ -226,9 +272,10 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
   if (!is_possible(drawn)) return impossible();
 
   // The drawing's own figures, or, where a share of the dampers made counts, what this share
-  // reaches.
+  // reaches. A drawing that a model refuses is not made.
   std::vector<double> all = figures(drawn);
-  if (!made_with_.empty()) {
+  const bool refused = std::ranges::all_of(all, [](double figure) { return std::isnan(figure); });
+  if (!made_with_.empty() && !refused) {
     std::vector<std::vector<double>> by_quantity(all.size());
     for (const std::vector<double>& shares : made_with_) {
       const DamperDescription damper = made(drawn, shares);
@@ -237,9 +284,7 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
       for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
     }
     for (std::size_t k = 0; k < all.size(); ++k)
-      all[k] =
-          figure_of_share(by_quantity[k], k < goals ? request_.goals[k].maximise
-                                                    : request_.constraints[k - goals].at_least);
+      all[k] = figure_of_share(by_quantity[k], is_wanted_large(k));
   }
 
   // Slack of each constraint; the violation sums those that fail.
@@ -252,7 +297,10 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
 
   // A goal that is not finite is as bad as a constraint whose figure is not known.
   for (const double goal : assessment.goals)
-    if (!std::isfinite(goal)) assessment.violation += kImpossible;
+    if (!std::isfinite(goal)) {
+      assessment.known = false;
+      assessment.violation += kImpossible;
+    }
   return assessment;
 }
 

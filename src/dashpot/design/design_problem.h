@@ -10,12 +10,13 @@ namespace dashpot {
 /// How well a damper meets a request. Figures in SI.
 struct Assessment {
   bool possible = true;       ///< false: no such damper can be drawn; there are no figures then
+  bool known = true;          ///< false: a model refuses its force, or a goal is not finite
   std::vector<double> goals;  ///< the quantities, as the share of dampers made reaches them
   std::vector<double> constraints;  ///< likewise
   std::vector<double> slack;  ///< of each constraint, in shares of its bound; negative: it fails
   double violation = 0;       ///< sum of what is negative
 
-  bool holds() const { return possible && violation == 0; }
+  bool holds() const { return possible && known && violation == 0; }
 };
 
 /// A request turned into a search: places in the unit cube are dampers, which are assessed.
@@ -45,11 +46,18 @@ class DesignProblem {
   /// The damper with its fields off by these shares of their tolerances.
   DamperDescription made(const DamperDescription& drawn, std::span<const double> shares) const;
   /// The figures of every goal, then of every constraint, of one damper as it is: each by the model
-  /// that is asked for it, or all by one.
-  std::vector<double> figures(const DamperDescription& damper,
-                              const DesignModel* all_by = nullptr) const;
+  /// that is asked for it, at the pessimistic end of its band. All NaN where a fitted model, asked
+  /// or not, refuses the force at an operating point of any of them.
+  std::vector<double> figures(const DamperDescription& damper) const;
+  /// The same by one model, in the middle of its band.
+  std::vector<double> middle_figures(const DamperDescription& damper,
+                                     const DesignModel& model) const;
 
  private:
+  std::size_t ask(const DamperOperation& at, ToldBy by);
+  void ask_fitted();
+  const DesignQuantity& quantity_of(std::size_t k) const;
+  bool is_wanted_large(std::size_t k) const;
   void follow(DamperDescription& damper) const;
   double figure_of_share(std::vector<double>& figures, bool at_least) const;
 
@@ -61,8 +69,8 @@ class DesignProblem {
   const DesignRequest& request_;
   const DesignModel& model_;
   const DesignModel* second_;
-  std::vector<Question> questions_;             // each once
-  std::vector<std::size_t> question_of_;        // of every goal, then of every constraint
+  std::vector<Question> questions_;       // each once; of fitted models all that any model is asked
+  std::vector<std::size_t> question_of_;  // of every goal, then of every constraint
   std::vector<std::vector<double>> made_with_;  // shares of the tolerances of each damper made
 };
 

@@ -3,10 +3,14 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <numbers>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/family/line_family.h"
+#include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/design/design_model.h"
 #include "dashpot/error.h"
 #include "dashpot/physics/plate_flow.h"
@@ -14,34 +18,103 @@
 namespace dashpot {
 namespace {
 
-/// The force as a test bench measures it: where a sine of this half stroke passes the displacement
-/// at the velocity, started from rest one cycle and more before, so that a model with states has
-/// seen a motion of its kind.
-double force_in_sine(const DamperModel& model, const DamperOperation& at, double half_stroke) {
-  constexpr double kPi = std::numbers::pi;
-  constexpr int kSteps = 100;  // of a cycle
-  std::vector<double> state(model.state_size());
-  DamperInput now{at.displacement, at.velocity, at.current};
-  model.rest(now, state);
-  if (state.empty() || at.velocity == 0) return model.force(now, state);
-  // x = a sin(w t): a^2 = half_stroke^2 + x^2, w half_stroke = |v| at the end.
-  const double amplitude = std::hypot(half_stroke, at.displacement);
-  const double rate = std::abs(at.velocity) / half_stroke;
-  const double end = std::atan2(at.displacement, std::copysign(half_stroke, at.velocity));
-  const double begin = std::copysign(0.5 * kPi, -at.velocity) - 2 * kPi;  // a turn
-  const int steps = static_cast<int>(std::ceil((end - begin) / (2 * kPi) * kSteps));
-  const double step = (end - begin) / steps;
-  const auto input_at = [&](double phase) {
-    return DamperInput{amplitude * std::sin(phase), amplitude * rate * std::cos(phase), at.current};
-  };
-  now = input_at(begin);
-  model.rest(now, state);
-  for (int k = 1; k <= steps; ++k) {
-    const DamperInput next = input_at(begin + k * step);
-    model.advance(now, next, step / rate, state);
-    now = next;
+/// N, and how far the members of an ensemble and its builds differ about it.
+struct BenchForce {
+  double force = 0, spread = 0;
+};
+
+/// A sine of this half stroke, which passes a place at a velocity, and a model on it.
+class BenchSine {
+ public:
+  BenchSine(const FamilyModel& model, const DamperOperation& at, double half_stroke)
+      : model_(model), current_(at.current), state_(model.state_size()) {
+    // x = a sin(w t): a^2 = half_stroke^2 + x^2, w half_stroke = |v| at the place.
+    amplitude_ = std::hypot(half_stroke, at.displacement);
+    rate_ = std::abs(at.velocity) / half_stroke;
+    physics_ = dynamic_cast<const PhysicsFamily*>(model.family().force.get());
+    if (physics_) element_ = physics_->physics().element(model.member(), at.current);
   }
-  return model.force(now, state);
+  /// Springs as they rest; a remembered square of the speed, q' = (v^2 - q) / t, as this sine has
+  /// long made it, which from rest would take cycles.
+  void rest(double phase) {
+    model_.rest(input(phase), state_);
+    const auto* line = dynamic_cast<const LineFamily*>(model_.family().force.get());
+    if (!line && !physics_) return;
+    const double time = line ? line->line().period() : element_.time, speed = amplitude_ * rate_;
+    const double late = 2 * rate_ * time;
+    state_[line ? 0 : 2] =
+        0.5 * speed * speed *
+        (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
+  }
+  BenchForce force(double phase) const {
+    return {model_.force(input(phase), state_), model_.spread(input(phase), state_)};
+  }
+
+  void run(double from, double to) {
+    constexpr double kRounding = 1e-9;
+    const int of_cycle = physics_ ? 40 : 100;  // whose steps are of order two, and the dearest
+    const double cycles = (to - from) / (2 * std::numbers::pi);
+    const int steps = static_cast<int>(std::ceil(cycles * of_cycle - kRounding));
+    const double step = (to - from) / steps;
+
+    // A damper of plate flow at a constant current, whose coil does not lag, is one element for all
+    // steps.
+    if (physics_) {
+      std::vector<double> speeds;
+      for (int k = 0; k <= steps; ++k) speeds.push_back(input(from + k * step).velocity);
+      advance_through(element_, speeds, step / rate_, state_);
+      return;
+    }
+    DamperInput now = input(from);
+    for (int k = 1; k <= steps; ++k) {
+      const DamperInput next = input(from + k * step);
+      model_.advance(now, next, step / rate_, state_);
+      now = next;
+    }
+  }
+
+ private:
+  DamperInput input(double phase) const {
+    return {amplitude_ * std::sin(phase), amplitude_ * rate_ * std::cos(phase), current_};
+  }
+
+  const FamilyModel& model_;
+  double current_, amplitude_ = 0, rate_ = 0;
+  std::vector<double> state_;
+  const PhysicsFamily* physics_ = nullptr;
+  FamilyPhysics::Element element_{};
+};
+
+/// The force as a test bench measures it: where a sine of this half stroke passes the displacement
+/// at the velocity, started from rest at the turn before, and as often again as it takes until a
+/// model that remembers has seen a motion of its kind.
+BenchForce force_in_sine(const FamilyModel& model, const DamperOperation& at, double half_stroke) {
+  constexpr double kPi = std::numbers::pi, kSettled = 1e-3;
+  constexpr int kMostCycles = 12;
+  if (model.state_size() == 0 || at.velocity == 0) {
+    const DamperInput here{at.displacement, at.velocity, at.current};
+    std::vector<double> state(model.state_size());
+    model.rest(here, state);
+    return {model.force(here, state), model.spread(here, state)};
+  }
+
+  // From the turn to the place.
+  BenchSine sine(model, at, half_stroke);
+  const double turn = std::copysign(0.5 * kPi, -at.velocity);
+  double end = std::atan2(at.displacement, std::copysign(half_stroke, at.velocity));
+  if (end < turn) end += 2 * kPi;
+  sine.rest(turn);
+  sine.run(turn, end);
+
+  // Cycle by cycle.
+  BenchForce told = sine.force(end);
+  for (int cycle = 0; cycle < kMostCycles; ++cycle) {
+    const double before = told.force;
+    sine.run(end, end + 2 * kPi);
+    told = sine.force(end);
+    if (!(std::abs(told.force - before) > kSettled * std::abs(told.force))) break;
+  }
+  return told;
 }
 
 /// Plate flow of a member and the friction of a seal, N, at an instant: what every member's force
@@ -67,40 +140,48 @@ class FamilyDesignModel final : public DesignModel {
 
   std::string name() const override { return family_->name(); }
 
-  DamperPhysics evaluate(const DamperDescription& description,
-                         const DamperOperation& operation) const override {
+  Appraisal appraise(const DamperDescription& description,
+                     const DamperOperation& operation) const override {
     // First principles give all figures but the force, and a member of the family for this
     // drawing.
-    DamperPhysics physics = evaluate_physics(description, operation);
-    const std::array<double, 2> currents{0, std::abs(operation.current)};
-    FamilyMember member =
-        member_of(description, std::span(currents).first(currents[1] > 0 ? 2 : 1));
-    member.spring_stiffness = 0;  // which the dynamic range leaves out
+    Appraisal told{.physics = evaluate_physics(description, operation)};
+    const FamilyMember member = still_member(description, operation);
 
     // The family's force with the current and without it, along a sine of the stroke it
     // knows.
     const auto damper = family_->with_member(member);
-    const double half_stroke = half_stroke_ > 0 ? half_stroke_ : 0.5 * description.stroke;
-    const double force = force_in_sine(*damper, operation, half_stroke);
-    const double off =
-        force_in_sine(*damper, {0, operation.velocity, operation.displacement}, half_stroke);
-
-    // A family whose forces exclude the spring has it added from first principles.
-    const bool has_spring = family_->family().baseline.target != FamilyTarget::Total;
-    const double spring = has_spring ? physics.spring_force : 0;
-    physics.force = force + spring;
-    physics.off_force = off + spring;
-    physics.dynamic_range = off != 0 ? force / off : std::numeric_limits<double>::infinity();
-
-    // A damper resists its motion; and a fitted model may not leap where physics does not.
-    if (!resists(force, operation.velocity) || !resists(off, operation.velocity) ||
-        (!insist_ && (leaps(*damper, force, operation, operation.current, half_stroke) ||
-                      leaps(*damper, off, operation, 0, half_stroke)))) {
+    const double half_stroke = half_stroke_of(description);
+    const BenchForce on = force_in_sine(*damper, operation, half_stroke);
+    const BenchForce off = force_in_sine(*damper, without_current(operation), half_stroke);
+    told.refused = !is_force(on.force, off.force, operation.velocity) ||
+                   (!insist_ && leaps(member, on.force, off.force, operation, half_stroke));
+    if (told.refused) {
       refused_ = true;
-      physics.force = physics.off_force = physics.dynamic_range =
+      told.physics.force = told.physics.off_force = told.physics.dynamic_range =
           std::numeric_limits<double>::quiet_NaN();
+      return told;
     }
-    return physics;
+
+    // The middle of its bands, and both ends.
+    set_forces(on.force, off.force, told.physics);
+    if (file_.interval) {
+      const double side = std::copysign(1., operation.velocity);
+      const double on_half = side * half_width(operation, on.spread),
+                   off_half = side * half_width(without_current(operation), off.spread);
+      told.weak = told.strong = told.physics;
+      set_forces(on.force - on_half, off.force + off_half, *told.weak);
+      set_forces(on.force + on_half, off.force - off_half, *told.strong);
+    }
+    return told;
+  }
+  bool has_band() const override { return file_.interval.has_value(); }
+  double force(const DamperDescription& description,
+               const DamperOperation& operation) const override {
+    const auto damper = family_->with_member(still_member(description, operation));
+    const double spring = has_spring() && operation.displacement != 0
+                              ? evaluate_physics(description, operation).spring_force
+                              : 0;
+    return force_in_sine(*damper, operation, half_stroke_of(description)).force + spring;
   }
   bool has_refused() const override { return refused_; }
 
@@ -125,6 +206,7 @@ class FamilyDesignModel final : public DesignModel {
     return outside;
   }
 
+  DamperOperation usual_operation() const override { return {current_, speed_}; }
   std::optional<ModelFile> model_of(const DamperDescription& description) const override {
     ModelFile made;
     made.model = family_->with_member(member_of(description, current_))->with_offset(0);
@@ -138,24 +220,82 @@ class FamilyDesignModel final : public DesignModel {
   }
 
  private:
+  double half_stroke_of(const DamperDescription& description) const {
+    return half_stroke_ > 0 ? half_stroke_ : 0.5 * description.stroke;
+  }
+  /// With the yield stress at this current and without; and without the spring, which the dynamic
+  /// range leaves out.
+  static FamilyMember still_member(const DamperDescription& description,
+                                   const DamperOperation& operation) {
+    const std::array<double, 2> currents{0, std::abs(operation.current)};
+    FamilyMember member =
+        member_of(description, std::span(currents).first(currents[1] > 0 ? 2 : 1));
+    member.spring_stiffness = 0;
+    return member;
+  }
+  static DamperOperation without_current(DamperOperation at) {
+    at.current = 0;
+    return at;
+  }
   static bool resists(double force, double velocity) {
     return velocity == 0 || (std::isfinite(force) && force * velocity > 0);
   }
+  /// Whether a damper may have these: it resists its motion, and the current takes no force away.
+  static bool is_force(double on, double off, double velocity) {
+    constexpr double kRounding = 1e-9;
+    return resists(on, velocity) && resists(off, velocity) &&
+           !(velocity != 0 && std::abs(on) < std::abs(off) * (1 - kRounding));
+  }
 
-  /// Whether this force lies kMostLeap times further from the plate flow's than that of the damper
-  /// with which the family's file stands, at the same place.
-  bool leaps(const FamilyModel& damper, double force, const DamperOperation& at, double current,
+  double half_width(const DamperOperation& at, double spread) const {
+    return file_.interval->half_width_at({at.displacement, at.velocity, at.current}, spread);
+  }
+  /// A family whose forces exclude the spring has it added from first principles.
+  bool has_spring() const { return family_->family().baseline.target != FamilyTarget::Total; }
+  void set_forces(double on, double off, DamperPhysics& physics) const {
+    const double spring = has_spring() ? physics.spring_force : 0;
+    physics.force = on + spring;
+    physics.off_force = off + spring;
+    physics.dynamic_range = off != 0 ? on / off : std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether a force, with the current or without, or their ratio lies kMostLeap times further from
+  /// the plate flow's than that of the damper with which the family's file stands, at the same
+  /// place; or that damper has none there.
+  bool leaps(const FamilyMember& member, double on, double off, const DamperOperation& at,
              double half_stroke) const {
     if (at.velocity == 0) return false;
-    const double known = std::clamp(at.velocity, -speed_, speed_);
-    const double own = force_in_sine(*family_, {current, known, at.displacement}, half_stroke);
-    if (!resists(own, known)) return false;
+    const std::optional<double> by_current = leap(member, on, at, half_stroke),
+                                without = leap(member, off, without_current(at), half_stroke);
+    const auto is_far = [](double times) { return times > kMostLeap || times * kMostLeap < 1; };
+    return !by_current || !without || is_far(*by_current) || is_far(*without) ||
+           is_far(*by_current / *without);
+  }
+
+  /// How many times further; nothing where the file's damper has no force there.
+  std::optional<double> leap(const FamilyMember& member, double force, const DamperOperation& at,
+                             double half_stroke) const {
+    DamperOperation known = at;
+    known.velocity = std::clamp(at.velocity, -speed_, speed_);
+    const double own = force_of_file(known, half_stroke);
+    if (!resists(own, known.velocity)) return std::nullopt;
     const double seal = 0.1 * std::abs(own);
-    const double share =
-        std::abs(force) / force_of_plate_flow(damper.member(), at.velocity, current, seal);
-    const double usual =
-        std::abs(own) / force_of_plate_flow(family_->member(), known, current, seal);
-    return share > kMostLeap * usual || share * kMostLeap < usual;
+    const auto flow = [&](const FamilyMember& of, double velocity) {
+      return force_of_plate_flow(of, velocity, at.current, seal);
+    };
+    return std::abs(force) / flow(member, at.velocity) /
+           (std::abs(own) / flow(family_->member(), known.velocity));
+  }
+
+  /// That of the damper with which the family's file stands. A request has few operating points,
+  /// which every design is asked at: what was last told of them is kept.
+  double force_of_file(const DamperOperation& at, double half_stroke) const {
+    constexpr std::size_t kMost = 64;
+    const std::array<double, 4> place{at.current, at.velocity, at.displacement, half_stroke};
+    const std::lock_guard lock(kept_guard_);
+    if (const auto kept = kept_.find(place); kept != kept_.end()) return kept->second;
+    if (kept_.size() >= kMost) kept_.clear();
+    return kept_[place] = force_in_sine(*family_, at, half_stroke).force;
   }
 
   std::shared_ptr<const FamilyModel> drawn(const DamperDescription& description) const {
@@ -168,6 +308,8 @@ class FamilyDesignModel final : public DesignModel {
   double half_stroke_ = 0, current_ = 0, speed_ = 0;
   bool insist_ = false;
   mutable std::atomic<bool> refused_ = false;
+  mutable std::mutex kept_guard_;
+  mutable std::map<std::array<double, 4>, double> kept_;
 };
 
 }  // namespace

@@ -40,9 +40,10 @@ class Search {
     for (std::size_t k = 0; k < assessment.slack.size(); ++k)
       if (options_.counted.empty() || options_.counted[k])
         seen.slack.push_back(assessment.slack[k] - kMargin);
-    if (!assessment.possible) seen.slack.push_back(-1);
+    if (!assessment.possible || !assessment.known)  // what cannot be drawn is further off
+      seen.slack.push_back(assessment.possible ? -1 : -2);
     for (const double slack : seen.slack) seen.violation += std::max(0., -slack);
-    seen.value = goal_ ? value_of(assessment, seen) : 0;
+    seen.value = goal_ ? value_of(assessment) : 0;
     if (!relaxed) keep(place, seen);
     return seen;
   }
@@ -51,15 +52,13 @@ class Search {
     return seen.violation > 0 ? kFails * (1 + seen.violation) : std::min(seen.value, kFails);
   }
   double best_rank() const { return best_rank_; }
+  const OptimiseOptions& options() const { return options_; }
   Optimum& best() { return best_; }
 
  private:
-  double value_of(const Assessment& assessment, Seen& seen) const {
-    const double figure = assessment.possible ? assessment.goals[*goal_] : NAN;
-    if (!std::isfinite(figure)) {
-      seen.violation += 1;
-      return kFails;
-    }
+  double value_of(const Assessment& assessment) const {
+    if (!assessment.possible || !assessment.known) return kFails;
+    const double figure = assessment.goals[*goal_];
     return problem_.request().goals[*goal_].maximise ? -figure : figure;
   }
   void keep(std::span<const double> place, const Seen& seen) {
@@ -91,7 +90,6 @@ class Polish {
 
   /// `radius` of the first steps; looks for each variable. Returns the place reached.
   std::vector<double> run(double radius, int looks) {
-    constexpr double kTolerance = 1e-9;
     const auto count = static_cast<unsigned>(free_.size());
     if (count == 0) return place_;
 
@@ -108,7 +106,7 @@ class Polish {
 
     // It ends when its steps are small or its looks are used up.
     nlopt_set_initial_step1(solver_, radius);
-    nlopt_set_xtol_abs1(solver_, kTolerance);
+    nlopt_set_xtol_abs1(solver_, search_.options().step);
     nlopt_set_maxeval(solver_, looks * static_cast<int>(count + 1));
 
     // From the place held to the one reached. What the problem threw on the way is thrown again.
@@ -135,7 +133,7 @@ class Polish {
     try {
       const std::size_t constraints = seen_.slack.size();
       seen_ = search_.look(place_, relaxed_);
-      seen_.slack.resize(constraints, -1);  // of a damper that cannot be drawn there is one more
+      seen_.slack.resize(constraints, 1);  // where there is no figure there is one more
     } catch (...) {
       failure_ = std::current_exception();
       nlopt_force_stop(solver_);
@@ -163,7 +161,7 @@ class Polish {
   std::exception_ptr failure_;
 };
 
-constexpr int kQuickLooks = 30, kLooks = 200;  // for each variable
+constexpr int kQuickLooks = 30;  // for each variable
 
 /// Variables that COBYLA may move: those of any value and, relaxed, those in steps.
 std::vector<std::size_t> movable(const DesignRequest& request, bool relaxed) {
@@ -224,7 +222,7 @@ void run_start(const DesignProblem& problem, Search& search, const OptimiseOptio
   global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); },
                 box, std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size),
                 seed);
-  polish(problem, search, search.best().place, kLooks);
+  polish(problem, search, search.best().place, options.looks);
 
   // The levels of each variable in turn, until a round over all variables brings nothing; a few
   // rounds at most.
@@ -237,7 +235,8 @@ void run_start(const DesignProblem& problem, Search& search, const OptimiseOptio
   }
 
   // Last, the variables without levels in small steps.
-  Polish(search, search.best().place, movable(problem.request(), false), false).run(0.002, kLooks);
+  Polish(search, search.best().place, movable(problem.request(), false), false)
+      .run(0.002, options.looks);
 }
 
 Optimum run_starts(const DesignProblem& problem, const std::size_t* goal,

@@ -12,6 +12,8 @@ struct OptimiseOptions {
   std::uint64_t seed = 1;
   int starts = 6;         ///< searches of their own, beside each other
   int evaluations = 400;  ///< of the global search, for each variable
+  int looks = 200;        ///< of each local search, for each variable
+  double step = 1e-9;     ///< at which a local search ends, in shares of the ranges
   int threads = 0;        ///< results do not depend on it
   const Monitor* monitor = nullptr;
   /// Constraints that count; empty: all.

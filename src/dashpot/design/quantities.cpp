@@ -213,6 +213,8 @@ bool DesignQuantity::is_of_force() const {
          estimate == controllable_force || estimate == response_time;
 }
 
+bool DesignQuantity::has_band() const { return is_of_force() && estimate != response_time; }
+
 std::span<const DesignQuantity> design_quantities() {
   static const std::vector<Q> all = all_quantities();
   return all;

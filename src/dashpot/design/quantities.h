@@ -27,6 +27,8 @@ struct DesignQuantity {
   double of(const OperatedDamper& damper) const;
   /// Whether it is made of forces, in which models differ.
   bool is_of_force() const;
+  /// Whether a band of the forces makes one of it: of those figures all but times.
+  bool has_band() const;
 };
 
 /// Every quantity, each name once: figures of the physics, estimates, then fields.

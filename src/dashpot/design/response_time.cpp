@@ -19,10 +19,13 @@ double current_of_90_percent(const OperatedDamper& damper, double off, double on
   DamperOperation trial = damper.operation;
   const auto missing = [&](double current) {
     trial.current = current;
-    return std::abs(damper.model.evaluate(damper.description, trial).force) - wanted;
+    return std::abs(damper.model.force(damper.description, trial)) - wanted;
   };
+
+  // A fitted model runs through a cycle for each force, which no more than its errors is worth.
+  const double tolerance = damper.model.is_fitted() ? 1e-4 : 1e-9;
   return find_root(missing, {0, off - wanted}, {std::abs(damper.operation.current), on - wanted},
-                   1e-9 * (on - off));
+                   tolerance * (on - off));
 }
 
 }  // namespace

@@ -104,8 +104,9 @@ Value conflict_json(const DesignReport& report) {
     members.push_back(Value::object(
         {{"constraint", describe(report.request.constraints[report.conflict->members[m]])},
          {"reached", report.conflict->reached[m]}}));
-  return Value::object(
-      {{"undrawable", report.conflict->undrawable}, {"members", std::move(members)}});
+  return Value::object({{"undrawable", report.conflict->undrawable},
+                        {"refused", report.conflict->refused},
+                        {"members", std::move(members)}});
 }
 
 }  // namespace

@@ -45,7 +45,8 @@ std::vector<std::size_t> selection(const DesignReport& report, std::size_t most)
 
 std::string conflict_verdict(const DesignReport& report) {
   const Conflict& conflict = *report.conflict;
-  if (conflict.undrawable) return "There is no design: " + describe(conflict, report.request) + ".";
+  if (conflict.undrawable || conflict.refused)
+    return "There is no design: " + describe(conflict, report.request) + ".";
   std::vector<std::string> lines = split(describe(conflict, report.request), '\n');
   std::erase(lines, "");
   if (lines.size() == 1) return "There is no design. It cannot hold: " + lines.front() + ".";

@@ -144,6 +144,12 @@ std::vector<double> run_family_physics(const FamilyPhysics& physics, const Famil
   return force;
 }
 
+void advance_through(const FamilyPhysics::Element& element, std::span<const double> speeds,
+                     double dt, std::span<double> state) {
+  for (std::size_t k = 1; k < speeds.size(); ++k)
+    physics_advance(&element, speeds[k - 1], speeds[k], dt, state.data());
+}
+
 std::vector<double> FamilyPhysics::deviation_covariance() const {
   constexpr double kLeast = 1e-6;
   std::vector<double> all(covariance.begin(), covariance.end());

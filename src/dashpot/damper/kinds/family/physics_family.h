@@ -69,6 +69,11 @@ std::vector<double> run_family_physics(const FamilyPhysics& physics, const Famil
                                        std::span<const DamperInput> inputs,
                                        std::span<const double> time);
 
+/// A damper at a constant current through speeds, m/s, dt apart: `state` goes from the first to the
+/// last.
+void advance_through(const FamilyPhysics::Element& element, std::span<const double> speeds,
+                     double dt, std::span<double> state);
+
 /// State: the seal's force and that of the flow, N, and the remembered square of the speed.
 constexpr std::size_t kPhysicsStates = 3;
 
