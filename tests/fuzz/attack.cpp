@@ -154,11 +154,6 @@ void attack(const FuzzTarget& target, const fs::path& seed_folder, double second
 
 }  // namespace
 
-/// C libraries meet a malloc that fails, as they would; `new` of so much is a finding.
-extern "C" const char* __asan_default_options() {
-  return "max_allocation_size_mb=2048:allocator_may_return_null=1";
-}
-
 /// fuzz_attack SECONDS TARGET; fuzz_attack TARGET FILE tries what was found; fuzz_attack alone
 /// names the targets.
 int main(int argc, char** argv) {

@@ -66,7 +66,17 @@ TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
   std::string scalar = whole;
   scalar[at + 1] = 0;
   CHECK_THROWS_WITH_AS(read_tables(folder.write("scalar.h5", scalar)),
-                       doctest::Contains("another number of dimensions"), Error);
+                       doctest::Contains("of its chunks cannot be"), Error);
+
+  // A number of 32 MiB: HDF5 would read it behind its chunk.
+  std::string wide = whole;
+  const char eight_bytes[] = {8, 0, 0, 0, 0, 0, 64, 0, 52, 11, 0, 52};
+  std::size_t type = wide.find(std::string(eight_bytes, sizeof eight_bytes));
+  REQUIRE(type != std::string::npos);
+  for (; type != std::string::npos; type = wide.find(std::string(eight_bytes, sizeof eight_bytes)))
+    wide[type + 3] = 2;
+  CHECK_THROWS_WITH_AS(read_tables(folder.write("wide.h5", wide)),
+                       doctest::Contains("of its numbers and"), Error);
 
   // Numbers of another file.
   const auto link = folder.path() / "link.h5";

@@ -47,6 +47,12 @@ Chunks chunks_of(hid_t creation, hid_t space, std::size_t most) {
   return chunks;
 }
 
+/// Wider numbers than there are: HDF5 would read them behind the end of its buffer.
+bool is_too_wide(hid_t type) {
+  const H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  return (kind == H5T_INTEGER || kind == H5T_FLOAT) && H5Tget_size(type) > sizeof(long double);
+}
+
 herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void* data) {
   Links& links = *static_cast<Links*>(data);
   if (links.links_left-- == 0) return links.stop(Links::Fault::Bomb);
@@ -65,7 +71,7 @@ herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*
   const std::size_t width = type < 0 ? 1 : std::max<std::size_t>(H5Tget_size(type) / 8, 1);
   const auto values = static_cast<std::size_t>(std::max<hssize_t>(count, 0));
   const Chunks chunks = chunks_of(creation, space, links.most_values);
-  if (!chunks.fit) return links.stop(Links::Fault::Damage);
+  if (!chunks.fit || is_too_wide(type)) return links.stop(Links::Fault::Damage);
   if (values > links.values_left / width || chunks.values > links.most_values / width ||
       chunks.count > links.chunks_left)
     return links.stop(Links::Fault::Bomb);
@@ -104,8 +110,7 @@ void check_hdf5(hid_t opened, const std::string& file, std::uintmax_t file_size)
     throw Error(file, "takes numbers from other files, which Dashpot does not follow",
                 "save it as one file");
   if (links.fault == Links::Fault::Damage)
-    throw Error(file,
-                "is damaged: a dataset's chunks have another number of dimensions than it has",
+    throw Error(file, "is damaged: what a dataset says of its numbers and of its chunks cannot be",
                 "copy it again from its source");
   if (end < 0)
     throw Error(file, "is damaged or cut off: HDF5 cannot list what it holds",

@@ -154,4 +154,10 @@ void Mdf4Blocks::count(std::uint64_t at, std::uint64_t bytes) {
     fail(at, "far more data than a recording of its size has");
 }
 
+void Mdf4Blocks::count_values(std::uint64_t at, std::uint64_t values) {
+  values_ += values;
+  if (values_ > most_unpacked(file_.size()))
+    fail(at, "far more values than a recording of its size has");
+}
+
 }  // namespace dashpot
