@@ -47,10 +47,22 @@ Chunks chunks_of(hid_t creation, hid_t space, std::size_t most) {
   return chunks;
 }
 
-/// Wider numbers than there are: HDF5 would read them behind the end of its buffer.
-bool is_too_wide(hid_t type) {
+/// Numbers that are wider than there are, or whose bits lie beside them: HDF5 would look for them
+/// behind the end of its buffer.
+bool cannot_be(hid_t type) {
   const H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
-  return (kind == H5T_INTEGER || kind == H5T_FLOAT) && H5Tget_size(type) > sizeof(long double);
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return false;
+  const std::size_t size = H5Tget_size(type), bits = H5Tget_precision(type);
+  const int offset = H5Tget_offset(type);
+  if (size > sizeof(long double) || bits == 0 || offset < 0 ||
+      bits + static_cast<std::size_t>(offset) > 8 * size)
+    return true;
+
+  // Sign, exponent and mantissa.
+  if (kind == H5T_INTEGER) return false;
+  std::size_t sign = 0, exponent = 0, exponent_bits = 0, mantissa = 0, mantissa_bits = 0;
+  return H5Tget_fields(type, &sign, &exponent, &exponent_bits, &mantissa, &mantissa_bits) < 0 ||
+         sign >= bits || exponent + exponent_bits > bits || mantissa + mantissa_bits > bits;
 }
 
 herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void* data) {
@@ -71,7 +83,7 @@ herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*
   const std::size_t width = type < 0 ? 1 : std::max<std::size_t>(H5Tget_size(type) / 8, 1);
   const auto values = static_cast<std::size_t>(std::max<hssize_t>(count, 0));
   const Chunks chunks = chunks_of(creation, space, links.most_values);
-  if (!chunks.fit || is_too_wide(type)) return links.stop(Links::Fault::Damage);
+  if (!chunks.fit || cannot_be(type)) return links.stop(Links::Fault::Damage);
   if (values > links.values_left / width || chunks.values > links.most_values / width ||
       chunks.count > links.chunks_left)
     return links.stop(Links::Fault::Bomb);
