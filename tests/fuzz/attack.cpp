@@ -154,28 +154,22 @@ void attack(const FuzzTarget& target, const fs::path& seed_folder, double second
 
 }  // namespace
 
-/// C libraries meet a malloc that fails, as they would; `new` of so much is a finding.
-extern "C" const char* __asan_default_options() {
-  return "max_allocation_size_mb=2048:allocator_may_return_null=1";
-}
-
-/// fuzz_attack SECONDS TARGET; fuzz_attack TARGET FILE tries what was found; fuzz_attack alone
-/// names the targets.
+/// fuzz_attack seeds FOLDER writes what attacks start from; fuzz_attack SECONDS TARGET FOLDER
+/// attacks; fuzz_attack TARGET FILE tries what was found; fuzz_attack alone names the targets.
 int main(int argc, char** argv) {
-  if (argc != 3) {
+  if (argc == 3 && std::string_view(argv[1]) == "seeds") return write_seeds(argv[2]), 0;
+  if (argc != 3 && argc != 4) {
     for (const FuzzTarget* target : fuzz_targets())
       std::printf("%s\n", std::string(target->name()).c_str());
     return argc == 1 ? 0 : 2;
   }
   __sanitizer_set_death_callback(keep_finding);
   for (const int signal : {SIGABRT, SIGALRM}) std::signal(signal, die_of_signal);
-  if (const FuzzTarget* target = find_fuzz_target(argv[1])) {
-    now.finding = fs::absolute("finding-again");
-    return try_input(*target, dashpot::read_file(argv[2])), 0;
-  }
-  const FuzzTarget* target = find_fuzz_target(argv[2]);
-  if (!target) return std::fprintf(stderr, "fuzz_attack: no target '%s'\n", argv[2]), 2;
-  const fs::path seeds = fuzz_file("seeds.made", "").parent_path() / "seeds";
-  write_seeds(seeds);
-  attack(*target, seeds / target->name(), std::stod(argv[1]));
+
+  const char* name = argv[argc == 3 ? 1 : 2];
+  const FuzzTarget* target = find_fuzz_target(name);
+  if (!target) return std::fprintf(stderr, "fuzz_attack: no target '%s'\n", name), 2;
+  if (argc == 4) return attack(*target, fs::path(argv[3]) / name, std::stod(argv[1])), 0;
+  now.finding = fs::absolute("finding-again");
+  try_input(*target, dashpot::read_file(argv[2]));
 }

@@ -66,7 +66,24 @@ TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
   std::string scalar = whole;
   scalar[at + 1] = 0;
   CHECK_THROWS_WITH_AS(read_tables(folder.write("scalar.h5", scalar)),
-                       doctest::Contains("another number of dimensions"), Error);
+                       doctest::Contains("of its chunks cannot be"), Error);
+
+  // A number of 32 MiB, and numbers whose bits lie beside them: HDF5 would read behind its buffer.
+  const std::string real("\x08\0\0\0\0\0\x40\0\x34\x0b\0\x34", 12);
+  const std::string integer("\x10\x08\0\0\x02\0\0\0\0\0\x10\0", 12);
+  struct {
+    std::string type;
+    std::size_t byte;
+    char value;
+  } const damages[] = {{real, 3, 2}, {real, 11, 99}, {integer, 10, 0}, {integer, 11, 16}};
+  for (const auto& damage : damages) {
+    std::string damaged = whole;
+    const std::size_t type = damaged.find(damage.type);
+    REQUIRE(type != std::string::npos);
+    damaged[type + damage.byte] = damage.value;
+    CHECK_THROWS_WITH_AS(read_tables(folder.write("damaged.h5", damaged)),
+                         doctest::Contains("of its numbers and"), Error);
+  }
 
   // Numbers of another file.
   const auto link = folder.path() / "link.h5";

@@ -204,6 +204,27 @@ TEST_CASE("MDF 4: a bomb of packed blocks listed again and again is refused") {
   const std::uint64_t group = file.group(example_mdf4_channels(file), 1000, 18);
   CHECK_THROWS_WITH_AS(read_mdf4_bytes(file.finish(file.data_group(group, data))),
                        doctest::Contains("far more data"), Error);
+
+  // Channels that lie over each other, each of all bytes.
+  ExampleMdf4 over;
+  const std::uint64_t bytes = over.packed(std::string(std::size_t{8} << 20, '\0'));
+  std::vector<ExampleMdf4::Channel> channels;
+  for (int k = 0; k < 60; ++k)
+    channels.push_back({.name = "c" + std::to_string(k), .type = 0, .byte = 0, .bits = 8});
+  const std::uint64_t all = over.group(channels, 8 << 20, 1);
+  CHECK_THROWS_WITH_AS(read_mdf4_bytes(over.finish(over.data_group(all, bytes))),
+                       doctest::Contains("far more values"), Error);
+}
+
+// It would take minutes if each of the columns, which there are not, took its time.
+TEST_CASE("MDF 4: rows of four billion bytes, of which none is whole, stand as they are") {
+  ExampleMdf4 file;
+  const std::uint64_t block = file.packed(example_mdf4_record(0));
+  const std::uint64_t data = file.list(std::vector<std::uint64_t>(100, block));
+  const std::uint64_t group = file.group(example_mdf4_channels(file), 100, 18);
+  std::string bytes = file.finish(file.data_group(group, data));
+  bytes.replace(block + 24 + 2, 6, std::string("\1\0\xff\xff\xff\xff", 6));
+  CHECK(read_mdf4_bytes(bytes).front().rows() == 100);
 }
 
 TEST_CASE("MDF 4: flipped bytes are read or refused, and nothing else") {

@@ -47,6 +47,24 @@ Chunks chunks_of(hid_t creation, hid_t space, std::size_t most) {
   return chunks;
 }
 
+/// Numbers that are wider than there are, or whose bits lie beside them: HDF5 would look for them
+/// behind the end of its buffer.
+bool cannot_be(hid_t type) {
+  const H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  if (kind != H5T_INTEGER && kind != H5T_FLOAT) return false;
+  const std::size_t size = H5Tget_size(type), bits = H5Tget_precision(type);
+  const int offset = H5Tget_offset(type);
+  if (size > sizeof(long double) || bits == 0 || offset < 0 ||
+      bits + static_cast<std::size_t>(offset) > 8 * size)
+    return true;
+
+  // Sign, exponent and mantissa.
+  if (kind == H5T_INTEGER) return false;
+  std::size_t sign = 0, exponent = 0, exponent_bits = 0, mantissa = 0, mantissa_bits = 0;
+  return H5Tget_fields(type, &sign, &exponent, &exponent_bits, &mantissa, &mantissa_bits) < 0 ||
+         sign >= bits || exponent + exponent_bits > bits || mantissa + mantissa_bits > bits;
+}
+
 herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void* data) {
   Links& links = *static_cast<Links*>(data);
   if (links.links_left-- == 0) return links.stop(Links::Fault::Bomb);
@@ -65,7 +83,7 @@ herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*
   const std::size_t width = type < 0 ? 1 : std::max<std::size_t>(H5Tget_size(type) / 8, 1);
   const auto values = static_cast<std::size_t>(std::max<hssize_t>(count, 0));
   const Chunks chunks = chunks_of(creation, space, links.most_values);
-  if (!chunks.fit) return links.stop(Links::Fault::Damage);
+  if (!chunks.fit || cannot_be(type)) return links.stop(Links::Fault::Damage);
   if (values > links.values_left / width || chunks.values > links.most_values / width ||
       chunks.count > links.chunks_left)
     return links.stop(Links::Fault::Bomb);
@@ -104,8 +122,7 @@ void check_hdf5(hid_t opened, const std::string& file, std::uintmax_t file_size)
     throw Error(file, "takes numbers from other files, which Dashpot does not follow",
                 "save it as one file");
   if (links.fault == Links::Fault::Damage)
-    throw Error(file,
-                "is damaged: a dataset's chunks have another number of dimensions than it has",
+    throw Error(file, "is damaged: what a dataset says of its numbers and of its chunks cannot be",
                 "copy it again from its source");
   if (end < 0)
     throw Error(file, "is damaged or cut off: HDF5 cannot list what it holds",

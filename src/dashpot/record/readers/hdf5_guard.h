@@ -32,7 +32,8 @@ Hdf5Handle open_hdf5(const std::string& file);
 
 /// Before anything of an open HDF5 file is read: throws Error on numbers that lie in other files,
 /// on datasets and chunks that state far more numbers than a file of this size has, on more chunks
-/// than its lists have room for, and on a file that HDF5 cannot list.
+/// than its lists have room for, on numbers and chunks that cannot be, and on a file that HDF5
+/// cannot list.
 void check_hdf5(hid_t opened, const std::string& file, std::uintmax_t file_size);
 
 }  // namespace dashpot

@@ -174,7 +174,7 @@ void append_record(Group& group, const char* record) {
 /// then the record.
 class RecordCutter {
  public:
-  RecordCutter(DataGroup& data, const Mdf4Blocks& blocks) : data_(data), blocks_(blocks) {
+  RecordCutter(DataGroup& data, Mdf4Blocks& blocks) : data_(data), blocks_(blocks) {
     for (Group& group : data.groups) by_id_[group.record_id] = &group;
   }
 
@@ -194,6 +194,13 @@ class RecordCutter {
  private:
   /// Takes whole records off the front; returns how many bytes they were.
   std::size_t cut(std::string_view bytes) {
+    // Records that are all alike are counted at once, others one by one.
+    const Group& first = data_.groups.front();
+    const bool alike = data_.id_bytes == 0 && !first.has_lengths;
+    if (alike)
+      blocks_.count_values(data_.data_at,
+                           bytes.size() / first.record_bytes() * first.channels.size());
+
     std::size_t at = 0;
     for (;;) {
       const std::string_view rest = bytes.substr(at);
@@ -207,6 +214,7 @@ class RecordCutter {
         if (size > kLongestRecord) blocks_.fail(data_.data_at, "a text without end in the data");
       }
       if (rest.size() < begin + size) return at;
+      if (!alike) blocks_.count_values(data_.data_at, group.channels.size());
       if (!group.channels.empty()) append_record(group, rest.data() + begin);
       at += begin + size;
     }
@@ -224,7 +232,7 @@ class RecordCutter {
   }
 
   DataGroup& data_;
-  const Mdf4Blocks& blocks_;
+  Mdf4Blocks& blocks_;
   std::map<std::uint64_t, Group*> by_id_;
   std::string rest_;
 };

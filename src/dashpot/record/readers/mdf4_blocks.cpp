@@ -22,7 +22,7 @@ constexpr std::size_t kPiece = std::size_t{1} << 20;
 /// What was stored column by column, so that it packs better, row by row again; bytes that fill no
 /// row stand at the end as they were.
 std::string transposed(const std::string& columns, std::size_t width) {
-  if (width < 2) return columns;
+  if (width < 2 || columns.size() < width) return columns;
   const std::size_t rows = columns.size() / width;
   std::string out(columns);
   for (std::size_t c = 0; c < width; ++c)
@@ -152,6 +152,12 @@ void Mdf4Blocks::count(std::uint64_t at, std::uint64_t bytes) {
   streamed_ += bytes;
   if (streamed_ > most_unpacked(file_.size()))
     fail(at, "far more data than a recording of its size has");
+}
+
+void Mdf4Blocks::count_values(std::uint64_t at, std::uint64_t values) {
+  values_ += values;
+  if (values_ > most_unpacked(file_.size()))
+    fail(at, "far more values than a recording of its size has");
 }
 
 }  // namespace dashpot

@@ -39,6 +39,10 @@ class Mdf4Blocks {
   /// bytes than a file of this size has.
   void stream(std::uint64_t at, const std::function<void(std::string_view)>& take);
 
+  /// To be told of all values that are kept: channels that lie over each other make more of them
+  /// than bytes. Throws Error on far more than a file of this size has.
+  void count_values(std::uint64_t at, std::uint64_t values);
+
   const ByteFile& file() const { return file_; }
   [[noreturn]] void fail(std::uint64_t at, const std::string& what) const;
 
@@ -50,7 +54,7 @@ class Mdf4Blocks {
   [[noreturn]] void fail_by_column() const;
 
   ByteFile file_;
-  std::uint64_t blocks_ = 0, streamed_ = 0;
+  std::uint64_t blocks_ = 0, streamed_ = 0, values_ = 0;
 };
 
 }  // namespace dashpot
