@@ -4,7 +4,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("invert: a file that track follows with, near the search on the model") {
+TEST_CASE("invert: a file that track follows with, near the search on the model" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "mine.json").string();
   const ProgramResult made = stdout_of_dashpot(

@@ -35,7 +35,8 @@ std::string record_days(const TemporaryFolder& folder, const std::string& plant,
 
 }  // namespace
 
-TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the alarm") {
+TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the alarm" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string plant = folder.write("plant.yaml", kWatchedMass).string(),
                     state = (folder.path() / "mass.watch").string(),

@@ -140,7 +140,7 @@ TEST_CASE("stepping a fuzzy model allocates nothing") {
   check_stepping(model);
 }
 
-TEST_CASE("an inverse's command allocates nothing") {
+TEST_CASE("an inverse's command allocates nothing" * doctest::test_suite("long")) {
   for (const InverseScheme& scheme : inverse_schemes()) {
     CAPTURE(std::string(scheme.name));
     const auto inverse = scheme.make(driven(find_law("bingham"), 100), {.lag_rate = 100});

@@ -153,7 +153,8 @@ TEST_CASE("no inverse network gives a current that is NaN or beyond its limits, 
   }
 }
 
-TEST_CASE("an inverse network follows an admissible force to 5 % of its span, for every preset") {
+TEST_CASE("an inverse network follows an admissible force to 5 % of its span, for every preset" *
+          doctest::test_suite("long")) {
   // Taught in a moment, on less than 'dashpot invert' takes: it comes to 1 to 2 %.
   const InverseTraining quick{.samples = 1500, .iterations = 40, .rounds = 2};
   const std::vector<std::string> all{"spencer1997", "mr1", "kwok2006"};

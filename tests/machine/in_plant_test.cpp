@@ -162,7 +162,8 @@ TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by
   CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.2, 0);
 }
 
-TEST_CASE("in plant: what cannot be told apart is named, before and after the fit") {
+TEST_CASE("in plant: what cannot be told apart is named, before and after the fit" *
+          doctest::test_suite("long")) {
   InPlantSetup setup = oscillator_setup();
   setup.known.clear();
   setup.unknown.push_back({"stiffness", 0, 1e6, 4000});  // beside the law's own spring k0

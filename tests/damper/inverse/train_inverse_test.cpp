@@ -87,7 +87,8 @@ TEST_CASE("train: a static network finds the inverse in closed form where the cu
       taught.network.mlp.parameters);
 }
 
-TEST_CASE("train: a network with feedback that saw true currents only is worse in free run") {
+TEST_CASE("train: a network with feedback that saw true currents only is worse in free run" *
+          doctest::test_suite("long")) {
   const LawModel model = driven(find_law("bouc_wen"), 0);
   std::vector<InverseRun> runs[2];
   for (const std::size_t part : {0, 1})

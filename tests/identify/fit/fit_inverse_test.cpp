@@ -80,7 +80,8 @@ TEST_CASE("fit inverse: records that cannot serve are told apart") {
         std::string::npos);
 }
 
-TEST_CASE("fit inverse: records whose current varies teach feedback, too") {
+TEST_CASE("fit inverse: records whose current varies teach feedback, too" *
+          doctest::test_suite("long")) {
   const ParameterSet set = load_parameter_set("kwok2006");
   std::vector<BenchTest> tests;
   for (const BenchTest& test : teaching_tests({0.015, 2}, {.current_max = set.drive_max}, 4))

@@ -114,7 +114,8 @@ TEST_CASE("a fit that dissipates as it is keeps its bits") {
   CHECK(format_json(fit.model->to_json()) == format_json(free.model->to_json()));
 }
 
-TEST_CASE("a damping in series does not fall over the drive, unless the user says so") {
+TEST_CASE("a damping in series does not fall over the drive, unless the user says so" *
+          doctest::test_suite("long")) {
   // A damper whose series damping does fall: what a law is fitted to may be of any kind.
   const LawModel published = load_parameters("spencer1997");
   Dependence parameters = published.parameters();

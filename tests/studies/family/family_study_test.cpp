@@ -160,7 +160,8 @@ TEST_CASE("raw inputs stand in the authors' units: kPa and mm") {
 }
 
 TEST_CASE(
-    "h3x15 on the published samples: better than the paper's chart in a third of the training") {
+    "h3x15 on the published samples: better than the paper's chart in a third of the training" *
+    doctest::test_suite("long")) {
   const std::filesystem::path folder = shared_data("family-dnn");
   if (folder.empty()) return;
   const FamilySamples family = family_samples(load_dataset({folder}));

@@ -63,7 +63,8 @@ TEST_CASE("dampings of the paper's gains at the wheel's resonance: TC-3.6c") {
   CHECK_CLOSE(damping_for_wheel_gain(plant, 2.0), 3677, 0, 1);
 }
 
-TEST_CASE("the passive curve is identified by the paper's network, and has no force at rest") {
+TEST_CASE("the passive curve is identified by the paper's network, and has no force at rest" *
+          doctest::test_suite("long")) {
   const NetworkDamper damper = identified_passive(1804, 1);
   CHECK(damper.model->parameter_count() == 41);
   CHECK(damper.quality.esr < 1);  // %
