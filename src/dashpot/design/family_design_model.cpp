@@ -170,7 +170,8 @@ class FamilyDesignModel final : public DesignModel {
                    off_half = side * half_width(without_current(operation), off.spread);
       told.weak = told.strong = told.physics;
       set_forces(on.force - on_half, off.force + off_half, *told.weak);
-      set_forces(on.force + on_half, off.force - off_half, *told.strong);
+      const double least_off = side * std::max(0., side * (off.force - off_half));
+      set_forces(on.force + on_half, least_off, *told.strong);
     }
     return told;
   }
