@@ -215,6 +215,13 @@ class FamilyDesignModel final : public DesignModel {
     return outside;
   }
 
+  bool dissipates(const DamperDescription& description, int threads) const override {
+    if (dynamic_cast<const PhysicsFamily*>(family_->family().force.get()))
+      return true;  // whatever its numbers: its structure can do nothing else
+    FamilyMember member = member_of(description, current_);
+    member.lag_rate = 0;  // the current stands still in every cycle
+    return dissipation(*family_->with_member(member), file_.domain, threads).dissipates();
+  }
   DamperOperation usual_operation() const override { return {current_, speed_}; }
   std::optional<ModelFile> model_of(const DamperDescription& description) const override {
     ModelFile made;
