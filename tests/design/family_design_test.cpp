@@ -253,6 +253,29 @@ TEST_CASE(
             .designs.size() == 1);
 }
 
+TEST_CASE("design by a family: one that feeds energy in at some other current is none") {
+  // At 0.3 A it resists; at 1 A its force has turned with the motion.
+  const TemporaryFolder folder;
+  FamilyLine line;
+  line.gap = 1e-3;
+  line.pole_length = 6e-3;
+  line.viscosity = 0.28;
+  line.size = {2, 1, 0, 0, 0.1, -0.5};
+  line.phase = {0.2, 0, 2.2, 0, 0, 0};
+  const std::string file = family_file(
+      folder,
+      {std::make_shared<Family>(family_of(std::make_shared<LineFamily>(line))), example_member()});
+  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) +
+                              "goals: [{minimise: mass, current: 0.3 A}]";
+  const DesignReport report = designed_by_family(request, {.model = file});
+  CHECK(report.designs.empty());
+  CHECK(report.rejected == 1);
+  CHECK(std::ranges::any_of(
+      report.notes, [](const std::string& note) { return contains(note, "feeds energy in"); }));
+  CHECK(contains(design_verdict(report), "No design is left"));
+  CHECK(designed_by_family(request, {.model = file, .insist = true}).designs.size() == 1);
+}
+
 TEST_CASE(
     "design by a family: what is asked of a force is met at the pessimistic end of its band") {
   const TemporaryFolder folder;
