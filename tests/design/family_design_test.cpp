@@ -7,6 +7,7 @@
 #include "dashpot/error.h"
 #include "dashpot/physics/damper_physics.h"
 #include "dashpot/report/design_report.h"
+#include "resisting_family.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -32,20 +33,6 @@ std::string family_file(const TemporaryFolder& folder, const FamilyModel& model,
   file.domain = {-0.02, 0.02, -0.05, 0.05, 0, 1};
   save_model(file, path);
   return path.string();
-}
-
-/// A family whose force resists the motion everywhere, up to 1 A, and falls a little with the gap.
-/// by_current: the logarithm of what 1 A makes of it, or less than nothing.
-FamilyModel resisting_family(double by_current = 0.2) {
-  FamilyLine line;
-  line.gap = 1e-3;
-  line.pole_length = 6e-3;
-  line.viscosity = 0.28;
-  line.slow = 1e-3;
-  line.size = {2, by_current, 0, 0, 0.1, -0.5};
-  line.phase.assign(6, 0.);
-  return {std::make_shared<Family>(family_of(std::make_shared<LineFamily>(line))),
-          example_member()};
 }
 
 DesignReport designed_by_family(const std::string& text, DesignOptions options) {
