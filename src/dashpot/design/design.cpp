@@ -235,7 +235,8 @@ bool DesignRun::feeds_energy(const DamperDescription& damper) {
   for (const DesignModel* model : {model_.get(), second_.get()}) {
     if (!model || model->dissipates(damper, report_.options.threads)) continue;
     const std::string note =
-        model->name() + " was refused where it feeds energy in, in some cycle within its data";
+        model->name() +
+        " was refused where it feeds energy in, in some cycle within its data; to insist keeps it";
     if (std::ranges::find(report_.notes, note) == report_.notes.end())
       report_.notes.push_back(note);
     return true;
