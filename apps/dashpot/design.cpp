@@ -286,7 +286,7 @@ std::vector<Option> options_of(DesignSettings& settings) {
       {.names = "--insist",
        .target = &settings.insist,
        .help = fmt::format("keep designs whose force lies {} times further from the plate flow's "
-                           "than that of a family's damper",
+                           "than that of a family's damper, or that feed energy in",
                            kMostLeap)},
 
       // The run itself, and what it prints or leaves out.

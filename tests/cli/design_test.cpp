@@ -1,9 +1,9 @@
 #include <filesystem>
 
-#include "damper/kinds/family/example_family.h"
 #include "dashpot/base/file.h"
 #include "dashpot/model_file.h"
 #include "dashpot/value.h"
+#include "design/resisting_family.h"
 #include "program.h"
 
 using namespace dashpot;
@@ -68,7 +68,7 @@ TEST_CASE("design by a family and beside the physics: members that 'member' and 
   const std::string family = (folder.path() / "family.json").string();
   const std::string out = (folder.path() / "out").string();
   ModelFile file;
-  file.model = example_family().with_offset(0);
+  file.model = resisting_family().with_offset(0);
   file.domain = {-0.02, 0.02, -0.05, 0.05, 0, 1};
   save_model(file, family);
   const std::string request = folder

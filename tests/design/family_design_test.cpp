@@ -7,6 +7,7 @@
 #include "dashpot/error.h"
 #include "dashpot/physics/damper_physics.h"
 #include "dashpot/report/design_report.h"
+#include "resisting_family.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -32,20 +33,6 @@ std::string family_file(const TemporaryFolder& folder, const FamilyModel& model,
   file.domain = {-0.02, 0.02, -0.05, 0.05, 0, 1};
   save_model(file, path);
   return path.string();
-}
-
-/// A family whose force resists the motion everywhere, up to 1 A, and falls a little with the gap.
-/// by_current: the logarithm of what 1 A makes of it, or less than nothing.
-FamilyModel resisting_family(double by_current = 0.2) {
-  FamilyLine line;
-  line.gap = 1e-3;
-  line.pole_length = 6e-3;
-  line.viscosity = 0.28;
-  line.slow = 1e-3;
-  line.size = {2, by_current, 0, 0, 0.1, -0.5};
-  line.phase.assign(6, 0.);
-  return {std::make_shared<Family>(family_of(std::make_shared<LineFamily>(line))),
-          example_member()};
 }
 
 DesignReport designed_by_family(const std::string& text, DesignOptions options) {
@@ -251,6 +238,29 @@ TEST_CASE(
   CHECK(designed_by_family(still, {.model = falling}).designs.empty());
   CHECK(designed_by_family(still, {.model = family_file(folder, resisting_family())})
             .designs.size() == 1);
+}
+
+TEST_CASE("design by a family: one that feeds energy in at some other current is none") {
+  // At 0.3 A it resists; at 1 A its force has turned with the motion.
+  const TemporaryFolder folder;
+  FamilyLine line;
+  line.gap = 1e-3;
+  line.pole_length = 6e-3;
+  line.viscosity = 0.28;
+  line.size = {2, 1, 0, 0, 0.1, -0.5};
+  line.phase = {0.2, 0, 2.2, 0, 0, 0};
+  const std::string file = family_file(
+      folder,
+      {std::make_shared<Family>(family_of(std::make_shared<LineFamily>(line))), example_member()});
+  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) +
+                              "goals: [{minimise: mass, current: 0.3 A}]";
+  const DesignReport report = designed_by_family(request, {.model = file});
+  CHECK(report.designs.empty());
+  CHECK(report.rejected == 1);
+  CHECK(std::ranges::any_of(
+      report.notes, [](const std::string& note) { return contains(note, "feeds energy in"); }));
+  CHECK(contains(design_verdict(report), "No design is left"));
+  CHECK(designed_by_family(request, {.model = file, .insist = true}).designs.size() == 1);
 }
 
 TEST_CASE(

@@ -44,6 +44,7 @@ class DesignRun {
   /// Finds the constraints that conflict, or a place that holds all of them after all.
   std::vector<std::vector<double>> explain();
   void note_limits();
+  bool feeds_energy(const DamperDescription& damper);
   void add_designs(const std::vector<std::vector<double>>& places);
   void compare(Design& design) const;
   void name_roles();
@@ -227,6 +228,22 @@ void DesignRun::compare(Design& design) const {
   }
 }
 
+/// Whether a fitted model of this damper is no damper's in some other motion or at some other
+/// current than those that were asked; said once.
+bool DesignRun::feeds_energy(const DamperDescription& damper) {
+  if (report_.options.insist) return false;
+  for (const DesignModel* model : {model_.get(), second_.get()}) {
+    if (!model || model->dissipates(damper, report_.options.threads)) continue;
+    const std::string note =
+        model->name() +
+        " was refused where it feeds energy in, in some cycle within its data; to insist keeps it";
+    if (std::ranges::find(report_.notes, note) == report_.notes.end())
+      report_.notes.push_back(note);
+    return true;
+  }
+  return false;
+}
+
 void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
   for (const auto& place : places) {
     // The description is written and read again: what is judged is what the user gets.
@@ -235,7 +252,7 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
     design.damper.name = report_.request.name;
     design.assessment = check_design(format_description(design.damper), report_.request, *model_,
                                      report_.options.seed, second_.get());
-    if (!design.assessment.holds()) {
+    if (!design.assessment.holds() || feeds_energy(design.damper)) {
       ++report_.rejected;
       continue;
     }

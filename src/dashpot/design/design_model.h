@@ -50,6 +50,9 @@ class DesignModel {
   virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }
   /// The current or speed that lies beyond those that it was fitted on, in words; else empty.
   virtual std::vector<std::string> extrapolations(const DamperOperation&) const { return {}; }
+  /// Whether the model of this damper takes energy out in every cycle that its fit has seen the
+  /// like of (dissipation() in model_file.h).
+  virtual bool dissipates(const DamperDescription&, int /*threads*/) const { return true; }
   /// The largest current and speed that it was fitted on.
   virtual DamperOperation usual_operation() const { return {}; }
   /// Whether its force has a band, at whose pessimistic end constraints and goals are met.

@@ -206,14 +206,6 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn,
   return damper;
 }
 
-/// The end of the band at which a figure that is wanted large, or small, is worst.
-const DamperPhysics& pessimistic(const Appraisal& told, const DesignQuantity& quantity,
-                                 bool large) {
-  if (!told.weak || !quantity.has_band()) return told.physics;
-  const bool falls = quantity.physics == &DamperPhysics::off_force;  // from weak to strong
-  return large != falls ? *told.weak : *told.strong;
-}
-
 std::vector<double> DesignProblem::figures(const DamperDescription& damper) const {
   const auto model_of = [&](const Question& question) -> const DesignModel& {
     return question.by == ToldBy::Second ? *second_ : model_;
@@ -231,8 +223,18 @@ std::vector<double> DesignProblem::figures(const DamperDescription& damper) cons
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
     const Question& question = questions_[question_of_[k]];
     const DesignQuantity& quantity = quantity_of(k);
-    const DamperPhysics& physics = pessimistic(told[question_of_[k]], quantity, is_wanted_large(k));
-    figures.push_back(quantity.of({damper, question.at, physics, model_of(question)}));
+    const Appraisal& own = told[question_of_[k]];
+    const auto figure = [&](const DamperPhysics& physics) {
+      return quantity.of({damper, question.at, physics, model_of(question)});
+    };
+
+    // Of a band the end at which a figure that is wanted large, or small, is worst.
+    if (own.weak && own.strong && quantity.has_band()) {
+      const double weak = figure(*own.weak), strong = figure(*own.strong);
+      figures.push_back(is_wanted_large(k) ? std::min(weak, strong) : std::max(weak, strong));
+    } else {
+      figures.push_back(figure(own.physics));
+    }
   }
   return figures;
 }

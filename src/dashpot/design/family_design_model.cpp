@@ -46,6 +46,13 @@ class BenchSine {
         0.5 * speed * speed *
         (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
   }
+  /// Whether springs have nothing left, at this force, of where they were at the turn before: what
+  /// they remember dies away over the travel that they give by.
+  bool has_forgotten(double force) const {
+    constexpr double kTravels = 15;
+    return physics_ && element_.stiffness * amplitude_ > kTravels * std::abs(force) &&
+           element_.seal_stiffness * amplitude_ > kTravels * element_.seal;
+  }
   BenchForce force(double phase) const {
     return {model_.force(input(phase), state_), model_.spread(input(phase), state_)};
   }
@@ -108,6 +115,7 @@ BenchForce force_in_sine(const FamilyModel& model, const DamperOperation& at, do
 
   // Cycle by cycle.
   BenchForce told = sine.force(end);
+  if (end - turn >= 0.5 * kPi && sine.has_forgotten(told.force)) return told;
   for (int cycle = 0; cycle < kMostCycles; ++cycle) {
     const double before = told.force;
     sine.run(end, end + 2 * kPi);
@@ -170,7 +178,8 @@ class FamilyDesignModel final : public DesignModel {
                    off_half = side * half_width(without_current(operation), off.spread);
       told.weak = told.strong = told.physics;
       set_forces(on.force - on_half, off.force + off_half, *told.weak);
-      set_forces(on.force + on_half, off.force - off_half, *told.strong);
+      const double least_off = side * std::max(0., side * (off.force - off_half));
+      set_forces(on.force + on_half, least_off, *told.strong);
     }
     return told;
   }
@@ -206,6 +215,13 @@ class FamilyDesignModel final : public DesignModel {
     return outside;
   }
 
+  bool dissipates(const DamperDescription& description, int threads) const override {
+    if (dynamic_cast<const PhysicsFamily*>(family_->family().force.get()))
+      return true;  // whatever its numbers: its structure can do nothing else
+    FamilyMember member = member_of(description, current_);
+    member.lag_rate = 0;  // the current stands still in every cycle
+    return dissipation(*family_->with_member(member), file_.domain, threads).dissipates();
+  }
   DamperOperation usual_operation() const override { return {current_, speed_}; }
   std::optional<ModelFile> model_of(const DamperDescription& description) const override {
     ModelFile made;

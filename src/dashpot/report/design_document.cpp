@@ -370,6 +370,9 @@ DocumentTable sensitivity_table(const DesignReport& report, const Design& design
 
 std::string design_verdict(const DesignReport& report) {
   if (report.conflict) return conflict_verdict(report);
+  if (report.designs.empty() && report.rejected > 0)
+    return fmt::format("No design is left: what the search found, {}, failed its own check.",
+                       counted(report.rejected, "design"));
   if (report.designs.empty())
     return report.stopped ? "Stopped before there was a design."
                           : "No design was found, although the constraints may hold: such designs "
