@@ -326,9 +326,13 @@ class Judge {
     return report_.options.model == file_ || report_.options.second == file_;
   }
   /// The damper that the design's file describes, whose coil follows at once and whose spring is
-  /// left out, as the figures have it.
-  std::unique_ptr<FamilyModel> member(const Design& design) const {
-    FamilyMember own = member_of(design.damper, std::max(family_.domain.current_max, 3.));
+  /// left out, as the figures have it; with the yield stress at this current as its drawing has it,
+  /// or as the file has it over all currents.
+  std::unique_ptr<FamilyModel> member(const Design& design,
+                                      std::optional<double> current = {}) const {
+    FamilyMember own = current
+                           ? member_of(design.damper, std::vector<double>{0, std::abs(*current)})
+                           : member_of(design.damper, family_.domain.current_max);
     own.spring_stiffness = own.lag_rate = 0;
     return std::make_unique<FamilyModel>(*family_.model.with_member(own));
   }
@@ -374,7 +378,7 @@ class Judge {
     // By the family: it resists, the current takes nothing away, and it is no further from plate
     // flow than is allowed. What another integrator makes of it may differ by a little.
     constexpr double kOtherSteps = 0.02;
-    const auto damper = member(design);
+    const auto damper = member(design, at.current);
     const double half = family_.domain.displacement_max;
     const double told = side * force_of_sine(*damper, at, half).force,
                  without =
@@ -415,7 +419,7 @@ class Judge {
     CAPTURE(describe(asked));
     if (!by_family || !(is_range || name == "force" || name == "off_force")) return;
     const DamperOperation off_at{0, asked.at.velocity, asked.at.displacement};
-    const auto damper = member(design);
+    const auto damper = member(design, asked.at.current);
     const auto end = [&](const DamperOperation& at, bool upper) {
       const SineForce told = force_of_sine(*damper, at, family_.domain.displacement_max);
       const double half =
