@@ -98,6 +98,7 @@ std::string two_readings(std::string_view text, double one, double other, std::s
 /// `at` is where its number begins in `name`.
 void doubt_digits(NamedLevel& found, std::string_view name, std::size_t at, std::size_t end,
                   std::size_t unit_end, double scale) {
+  constexpr double kTooSmall = 0;  // a fraction below the least double
   const std::string_view digits = name.substr(at, end - at),
                          unit = name.substr(end, unit_end - end);
   const bool whole = digits.find('.') == std::string_view::npos;
@@ -108,19 +109,23 @@ void doubt_digits(NamedLevel& found, std::string_view name, std::size_t at, std:
   // "0,5A" and "0p5A": a decimal sign that file names allow.
   if (whole && !before.empty() && (mark == ',' || mark == 'p')) {
     const auto value = parse_number(std::string(before) + "." + std::string(digits));
+    const std::string text(name.substr(start, unit_end - start));
+    if (!value) {
+      found.level.doubt = "'" + text + "' is no number of " + std::string(unit);
+      return;
+    }
     found.level.value = *value * scale;
     found.begin = start;
-    found.level.note = "'" + std::string(name.substr(start, unit_end - start)) + "' is read as " +
-                       format_number(*value) + " " + std::string(unit) + ", '" + mark +
-                       "' as the decimal sign";
+    found.level.note = "'" + text + "' is read as " + format_number(*value) + " " +
+                       std::string(unit) + ", '" + mark + "' as the decimal sign";
     return;
   }
 
   // "05A": the point may have been left out. Levels in mA are often filled up with zeros.
   if (whole && digits.size() > 1 && digits[0] == '0' && scale == 1 && found.level.value != 0) {
-    const auto other = parse_number("0." + std::string(digits.substr(1)));
+    const double other = parse_number("0." + std::string(digits.substr(1))).value_or(kTooSmall);
     found.level.doubt =
-        two_readings(name.substr(at, unit_end - at), found.level.value, *other, unit);
+        two_readings(name.substr(at, unit_end - at), found.level.value, other, unit);
     return;
   }
 
@@ -130,14 +135,15 @@ void doubt_digits(NamedLevel& found, std::string_view name, std::size_t at, std:
   if (!whole || before.empty() || !alone || (mark != '_' && mark != '-' && mark != ' ')) return;
   const bool zero = before == "0";
   if (!zero && (before.size() > 2 || before[0] == '0')) return;
-  const auto other = parse_number(std::string(before) + "." + std::string(digits));
+  const double other =
+      parse_number(std::string(before) + "." + std::string(digits)).value_or(kTooSmall);
   const std::string both =
-      two_readings(name.substr(start, unit_end - start), *other, found.level.value / scale, unit);
+      two_readings(name.substr(start, unit_end - start), other, found.level.value / scale, unit);
   if (zero) {
     found.level.doubt = both;
   } else {
     found.level.note = both + ": read as " + format_number(found.level.value / scale) + " " +
-                       std::string(unit) + "; 'level: " + format_number(*other * scale) +
+                       std::string(unit) + "; 'level: " + format_number(other * scale) +
                        "' in a dataset file states the other";
   }
 }

@@ -1,5 +1,7 @@
 #include "dashpot/record/readers/tdms.h"
 
+#include <limits>
+
 #include "dashpot/base/random.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/reader.h"
@@ -99,6 +101,19 @@ TEST_CASE("TDMS: stamps count in seconds; texts and sensors' scales are passed o
   REQUIRE(table.notes.size() == 2);
   CHECK(table.notes[0] == "channel 'words' passed over: it holds texts");
   CHECK(table.notes[1] == "channel 'hot' passed over: its scale is of the kind 'RTD'");
+}
+
+TEST_CASE("TDMS: stamps as far apart as their numbers allow are seconds like others") {
+  TdmsBytes metadata, raw;
+  metadata.add<std::uint32_t>(1);
+  add_tdms_channel(metadata, "/'run'/'time'", 0x44, 2);
+  for (const std::int64_t whole :
+       {std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::min()})
+    raw.add<std::uint64_t>(0).add(whole);
+  const RawTable table = read_tdms_bytes(tdms_segment(kTdmsMetadata | kTdmsNewList | kTdmsRawData,
+                                                      metadata.bytes, raw.bytes))
+                             .front();
+  CHECK(table.columns.front().values == std::vector<double>{0, -0x1p64});
 }
 
 TEST_CASE("TDMS: a writer that never closed its file loses what is not whole, with a note") {

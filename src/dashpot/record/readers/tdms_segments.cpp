@@ -293,7 +293,8 @@ double tdms_number(TdmsType type, const char* at, bool big_endian, std::int64_t 
       // Whole seconds and 2^-64 parts, the more significant first where bytes are, too.
       const auto whole = number_at<std::int64_t>(at + (big_endian ? 0 : 8), big_endian);
       const auto parts = number_at<std::uint64_t>(at + (big_endian ? 8 : 0), big_endian);
-      return static_cast<double>(whole - zero) + std::ldexp(static_cast<double>(parts), -64);
+      const double seconds = static_cast<double>(whole) - static_cast<double>(zero);
+      return seconds + std::ldexp(static_cast<double>(parts), -64);
     }
     default:
       return 0;
