@@ -85,6 +85,7 @@ bool DesignRun::is_fitted() const {
 /// A fitted model runs through a cycle of motion for each force, where physics has an equation: its
 /// searches are shorter, and end where its error has long been more than their steps.
 OptimiseOptions DesignRun::search_options(const std::string& stage, double from, double to) {
+  // Its progress is a part of the whole's.
   const Monitor& monitor = report_.options.monitor;
   if (!report_.stopped) try {
       monitor.report(stage, from);
@@ -96,6 +97,7 @@ OptimiseOptions DesignRun::search_options(const std::string& stage, double from,
                  monitor.on_progress({own.stage, from + own.fraction * (to - from)});
              },
              monitor.stop};
+
   OptimiseOptions options{
       .seed = report_.options.seed, .threads = report_.options.threads, .monitor = &staged_};
   if (is_fitted()) {
