@@ -1,7 +1,8 @@
 #include "dashpot/base/child_process.h"
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <spawn.h>
@@ -12,6 +13,17 @@
 #include "dashpot/error.h"
 
 namespace dashpot {
+namespace {
+
+/// A program's words as it is given them: C strings, the last one null.
+std::vector<char*> c_words(std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (std::string& word : words) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
+}  // namespace
 
 ChildResult run_child(std::vector<std::string> program_and_arguments) {
   const std::string program = program_and_arguments.front();
@@ -24,15 +36,10 @@ ChildResult run_child(std::vector<std::string> program_and_arguments) {
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
 
-  // The program sees its arguments as C strings, the last one null.
-  std::vector<char*> arguments;
-  for (std::string& argument : program_and_arguments) arguments.push_back(argument.data());
-  arguments.push_back(nullptr);
-
   // Start it, and keep only the reading end, so that the end of its output is seen.
   pid_t child = 0;
-  const int problem =
-      posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr,
+                                   c_words(program_and_arguments).data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
 
@@ -50,6 +57,92 @@ ChildResult run_child(std::vector<std::string> program_and_arguments) {
   waitpid(child, &status, 0);
   result.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   return result;
+}
+
+HandingChild::HandingChild(std::vector<std::string> program_and_arguments) {
+  const std::string program = program_and_arguments.front();
+  const std::vector<char*> words = c_words(program_and_arguments);
+  std::array<int, 2> ends;
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(program, std::strerror(errno));
+
+  // A large pipe, so that the two take turns less often; where it may not be, a small one does.
+  constexpr int kPipeBytes = 1 << 20;
+  fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], kHandOver);
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", O_RDWR, 0);
+
+  // No signal is blocked or ignored, whatever this process does with it.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes,
+                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigfillset(&signals);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+
+  // Start it, and keep only the reading end, so that the end of its bytes is seen. In a program of
+  // many threads this is sound: nothing of ours runs between the two.
+  const int problem =
+      posix_spawn(&child_, program.c_str(), &actions, &attributes, words.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  pipe_ = ends[0];
+  if (problem == 0) return;
+  close(pipe_);
+  throw Error(program, std::strerror(problem));
+}
+
+HandingChild::~HandingChild() { wait(); }
+
+std::size_t HandingChild::read_some(char* to, std::size_t room) {
+  for (;;) {
+    const ssize_t n = read(pipe_, to, room);
+    if (n < 0 && errno == EINTR) continue;
+    is_closed_ = n <= 0;
+    return is_closed_ ? 0 : static_cast<std::size_t>(n);
+  }
+}
+
+std::size_t HandingChild::take(void* to, std::size_t count) {
+  auto* const bytes = static_cast<char*>(to);
+  std::size_t done = 0, n = 1;
+  for (; done < count && n > 0; done += n) {
+    // Large pieces are read to where they go, small ones come out of a block that is kept.
+    const std::size_t left = count - done;
+    const bool is_empty = kept_from_ == kept_to_;
+    if (is_empty && left >= kept_.size()) {
+      n = read_some(bytes + done, left);
+      continue;
+    }
+    if (is_empty) kept_from_ = 0, kept_to_ = read_some(kept_.data(), kept_.size());
+    n = std::min(kept_to_ - kept_from_, left);
+    std::copy_n(kept_.data() + kept_from_, n, bytes + done);
+    kept_from_ += n;
+  }
+  return done;
+}
+
+ChildStatus HandingChild::wait() {
+  ChildStatus end;
+  if (child_ <= 0) return end;
+  end.was_ended = !is_closed_;
+  if (end.was_ended) kill(child_, SIGKILL);
+  close(pipe_);
+
+  int status = 0;
+  pid_t waited;
+  do waited = waitpid(child_, &status, 0);
+  while (waited < 0 && errno == EINTR);
+  child_ = 0;
+  if (waited > 0 && WIFEXITED(status)) end.exit_status = WEXITSTATUS(status);
+  if (waited > 0 && WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  return end;
 }
 
 }  // namespace dashpot

@@ -11,6 +11,11 @@ namespace dashpot {
 /// it was built from.
 std::filesystem::path data_folder(std::string_view kind);
 
+/// A program that Dashpot starts for work of its own, such as "dashpot-hdf5": in $DASHPOT_PROGRAMS;
+/// beside the program or library that runs, or in the lib/dashpot of its installation; in the build
+/// that it comes from; or where it was to be installed. Throws Error where it is nowhere.
+std::filesystem::path own_program(const std::string& name);
+
 /// Names without their ending of the files of that kind, in alphabetical order.
 std::vector<std::string> data_names(std::string_view kind, std::string_view extension);
 

@@ -285,6 +285,19 @@ std::size_t most_unpacked(std::size_t packed) {
   return std::max(kAlwaysUnpacked, kMostUnpackedPerByte * packed);
 }
 
+std::string read_head(const fs::path& path, std::size_t bytes) {
+  InputFile file(path);
+  std::string head(bytes, '\0');
+  std::size_t at = 0;
+  while (at < bytes) {
+    const std::size_t n = file.read(head.data() + at, bytes - at);
+    if (n == 0) break;
+    at += n;
+  }
+  head.resize(at);
+  return head;
+}
+
 std::string read_file(const fs::path& path) {
   InputFile file(path);
   std::string content;

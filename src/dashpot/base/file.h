@@ -31,6 +31,9 @@ class InputFile {
 /// time, no recording.
 std::size_t most_unpacked(std::size_t packed);
 
+/// The first bytes of a file, gunzipped. Throws Error when it cannot be opened.
+std::string read_head(const std::filesystem::path& path, std::size_t bytes);
+
 /// The whole file, gunzipped when its content is gzip. Throws Error when it cannot be read or
 /// holds more than any file that is read at once.
 std::string read_file(const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/record/readers/stored_arrays.h"
 #include "dashpot/record/readers/table.h"
 
 namespace dashpot {
@@ -13,8 +14,10 @@ bool is_hdf5(const std::filesystem::path& path, std::string_view extension, std:
 /// Reads each group: its datasets of the commonest length are the columns of a table, by their
 /// names, in the units of their attributes "unit" or "units"; a matrix of up to 64 columns is as
 /// many of them, "F(1)"; single numbers stand beside the table. Texts, compounds and arrays of more
-/// dimensions are passed over with a note. Throws Error on damage and on what check_hdf5 refuses,
-/// and NoTable when no group holds numbers.
+/// dimensions are passed over with a note. Throws Error on damage, on numbers that lie in other
+/// files or are far more than a file of its size has, and NoTable when no group holds numbers.
 std::vector<RawTable> read_hdf5(const std::filesystem::path& path);
+/// The same of what the file holds.
+std::vector<RawTable> hdf5_tables(StoredArrays all, const std::string& file);
 
 }  // namespace dashpot

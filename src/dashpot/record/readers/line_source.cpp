@@ -125,17 +125,4 @@ bool LineSource::fill_from_utf16() {
   return end_ > before;
 }
 
-std::string read_head(const fs::path& path, std::size_t bytes) {
-  InputFile file(path);
-  std::string head(bytes, '\0');
-  std::size_t at = 0;
-  while (at < bytes) {
-    const std::size_t n = file.read(head.data() + at, bytes - at);
-    if (n == 0) break;
-    at += n;
-  }
-  head.resize(at);
-  return head;
-}
-
 }  // namespace dashpot

@@ -49,7 +49,4 @@ class LineSource final : public Lines {
   std::string undecoded_;  ///< bytes of UTF-16 that have been read and not been decoded
 };
 
-/// The first bytes of a file, gunzipped. Throws Error when it cannot be opened.
-std::string read_head(const std::filesystem::path& path, std::size_t bytes);
-
 }  // namespace dashpot

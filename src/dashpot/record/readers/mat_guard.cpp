@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include "dashpot/error.h"
+#include "dashpot/record/readers/stored_arrays.h"
 
 namespace dashpot {
 namespace {
@@ -28,12 +29,6 @@ enum Class : std::uint32_t {
 [[noreturn]] void refuse_bomb(const std::string& file) {
   throw Error(file, "unpacks to far more than a recording of its size",
               "save it without compression (-v6), or its recordings one by one");
-}
-
-/// Bytes of all variables of a file as numbers of double precision.
-std::size_t largest_unpacked(std::size_t file_size) {
-  constexpr std::size_t kAlways = std::size_t{64} << 20, kPerByte = 12;
-  return std::max(kAlways, kPerByte * file_size);
 }
 
 [[noreturn]] void damaged(const std::string& file, const std::string& what) {
@@ -252,7 +247,7 @@ std::string inflate_bytes(std::string_view packed, Walk& walk) {
 void check_version5(std::string_view bytes, const std::string& file) {
   Walk walk{.file = file,
             .swap = bytes.substr(126, 2) == "MI",
-            .bytes_left = largest_unpacked(bytes.size())};
+            .bytes_left = most_stored_bytes(bytes.size())};
   Cursor cursor(bytes.substr(kHeader), walk);
   if (cursor.at_end()) damaged(file, "it holds no variables");
   while (!cursor.at_end()) {
@@ -270,7 +265,7 @@ void check_version5(std::string_view bytes, const std::string& file) {
 /// Version 4: a header of five integers before each matrix, and no signature.
 void check_version4(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 20) damaged(file, "it ends inside its header");
-  Walk walk{.file = file, .swap = false, .bytes_left = largest_unpacked(bytes.size())};
+  Walk walk{.file = file, .swap = false, .bytes_left = most_stored_bytes(bytes.size())};
   walk.swap = Cursor(bytes, walk).u32("the type") > 9999;
   Cursor cursor(bytes, walk);
 

@@ -1,12 +1,12 @@
 #include "dashpot/record/readers/reader.h"
 
+#include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/csv.h"
 #include "dashpot/record/readers/daq_text.h"
 #include "dashpot/record/readers/family_json.h"
 #include "dashpot/record/readers/hdf5.h"
-#include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat.h"
 #include "dashpot/record/readers/mdf4.h"
 #include "dashpot/record/readers/tdms.h"

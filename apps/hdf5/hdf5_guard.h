@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <mutex>
 #include <string>
 
 #include <hdf5.h>
@@ -22,9 +21,6 @@ class Hdf5Handle {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
-
-/// HDF5, and the MAT library above it, serve one thread at a time: held while a file is read.
-std::mutex& hdf5_turn();
 
 /// Throws Error when HDF5 cannot open it. Filters that would be loaded from the disk are switched
 /// off for the process.

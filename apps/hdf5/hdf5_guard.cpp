@@ -1,9 +1,10 @@
-#include "dashpot/record/readers/hdf5_guard.h"
+#include "hdf5_guard.h"
 
 #include <algorithm>
 #include <array>
 
 #include "dashpot/error.h"
+#include "dashpot/record/readers/stored_arrays.h"
 
 namespace dashpot {
 namespace {
@@ -94,11 +95,6 @@ herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*
 
 }  // namespace
 
-std::mutex& hdf5_turn() {
-  static std::mutex turn;
-  return turn;
-}
-
 Hdf5Handle open_hdf5(const std::string& file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // HDF5 prints otherwise
   H5PLset_loading_state(0);
@@ -110,9 +106,8 @@ Hdf5Handle open_hdf5(const std::string& file) {
 }
 
 void check_hdf5(hid_t opened, const std::string& file, std::uintmax_t file_size) {
-  constexpr std::uintmax_t kAlways = std::uintmax_t{64} << 20, kPerByte = 12;
   constexpr std::uintmax_t kChunksAlways = 100'000, kBytesPerChunk = 8;  // of its list
-  Links links{.most_values = std::max(kAlways, kPerByte * file_size) / sizeof(double),
+  Links links{.most_values = most_stored_bytes(file_size) / sizeof(double),
               .chunks_left = std::max(kChunksAlways, file_size / kBytesPerChunk)};
   const herr_t end = H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, look_at_link, &links);
   if (links.fault == Links::Fault::Bomb)

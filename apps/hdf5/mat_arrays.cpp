@@ -1,0 +1,132 @@
+#include "mat_arrays.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <matio.h>
+#include <memory>
+
+#include "dashpot/base/file.h"
+#include "dashpot/error.h"
+#include "dashpot/record/readers/mat_guard.h"
+#include "hdf5_guard.h"
+
+namespace fs = std::filesystem;
+
+namespace dashpot {
+namespace {
+
+constexpr int kDeepestVariable = 4;
+
+using MatFile = std::unique_ptr<mat_t, int (*)(mat_t*)>;
+using Variable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
+
+/// Hands over the numbers of a matrix, which stand column by column; one that lies on its side is
+/// turned.
+template <class Number>
+void hand_over_numbers(const void* data, const StoredArray& about, StoredWriter& to) {
+  const auto* numbers = static_cast<const Number*>(data);
+  const bool lies = about.width > about.height;
+  const std::size_t step = lies ? 1 : about.height, stride = lies ? about.height : 1;
+  for (std::size_t c = 0; c < std::min(about.height, about.width); ++c)
+    to.add_column(numbers + c * step, about.length(), stride);
+}
+
+/// As double, whatever type they are stored in; integers of 64 bits are rounded.
+void hand_over_matrix(const matvar_t& variable, const StoredArray& about, StoredWriter& to) {
+  to.begin_array(about);
+  if (about.is_wide()) return;
+  switch (variable.class_type) {
+    case MAT_C_DOUBLE:
+      return hand_over_numbers<double>(variable.data, about, to);
+    case MAT_C_SINGLE:
+      return hand_over_numbers<float>(variable.data, about, to);
+    case MAT_C_INT8:
+      return hand_over_numbers<std::int8_t>(variable.data, about, to);
+    case MAT_C_UINT8:
+      return hand_over_numbers<std::uint8_t>(variable.data, about, to);
+    case MAT_C_INT16:
+      return hand_over_numbers<std::int16_t>(variable.data, about, to);
+    case MAT_C_UINT16:
+      return hand_over_numbers<std::uint16_t>(variable.data, about, to);
+    case MAT_C_INT32:
+      return hand_over_numbers<std::int32_t>(variable.data, about, to);
+    case MAT_C_UINT32:
+      return hand_over_numbers<std::uint32_t>(variable.data, about, to);
+    case MAT_C_INT64:
+      return hand_over_numbers<std::int64_t>(variable.data, about, to);
+    default:
+      return hand_over_numbers<std::uint64_t>(variable.data, about, to);
+  }
+}
+
+bool is_numeric(const matvar_t& variable) {
+  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64 &&
+         !variable.isComplex;
+}
+
+/// Goes through variables, into structures of one element too; names what it passes over.
+class MatWalk {
+ public:
+  MatWalk(mat_t* file, std::string path, StoredWriter& to)
+      : file_(file), path_(std::move(path)), to_(to) {}
+
+  void visit(matvar_t& variable, const std::string& name, int depth) {
+    if (variable.rank != 2 || depth > kDeepestVariable)
+      return pass_over(name, "not two-dimensional");
+
+    // Go into structures of one element; pass over what is no matrix of real numbers.
+    const std::size_t rows = variable.dims[0], columns = variable.dims[1];
+    if (variable.class_type == MAT_C_STRUCT && rows == 1 && columns == 1)
+      return visit_fields(variable, name, depth);
+    if (!is_numeric(variable)) return pass_over(name, "not a real number array");
+    if (rows == 0 || columns == 0) return pass_over(name, "empty");
+
+    if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
+    if (!variable.data) fail(name);
+    hand_over_matrix(
+        variable, {.group = {}, .name = name, .unit = {}, .height = rows, .width = columns}, to_);
+  }
+
+ private:
+  void visit_fields(matvar_t& variable, const std::string& name, int depth) {
+    if (depth == 0 && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
+    char* const* fields = Mat_VarGetStructFieldnames(&variable);
+    for (unsigned k = 0; k < Mat_VarGetNumberOfFields(&variable); ++k)
+      if (matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, k, 0))
+        visit(*field, name + "." + fields[k], depth + 1);
+  }
+  void pass_over(const std::string& name, const std::string& why) {
+    to_.note({"", "variable '" + name + "' passed over: " + why});
+  }
+  [[noreturn]] void fail(const std::string& name) const {
+    throw Error(path_, "variable '" + name + "' cannot be read",
+                "the file is damaged: copy it again from its source");
+  }
+
+  mat_t* file_;
+  std::string path_;
+  StoredWriter& to_;
+};
+
+}  // namespace
+
+void hand_over_mat(const fs::path& path, StoredWriter& to) {
+  // Check sizes before the MAT library sees the file.
+  const std::string file = path.string();
+  const std::uintmax_t size = fs::file_size(path);
+  if (const std::string head = read_head(path, kMat73Head); head.starts_with("MATLAB 7.3")) {
+    check_mat73(head, size, file);
+    check_hdf5(open_hdf5(file), file, size);
+  } else {
+    check_mat(read_file(path), file);
+  }
+
+  Mat_LogInitFunc("dashpot", [](int, char*) {});  // the MAT library prints otherwise
+  const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY), Mat_Close);
+  if (!mat) throw Error(file, "damaged or cut off MAT file", "copy it again from its source");
+  MatWalk walk(mat.get(), file, to);
+  while (const Variable variable{Mat_VarReadNextInfo(mat.get()), Mat_VarFree})
+    walk.visit(*variable, variable->name ? variable->name : "", 0);
+}
+
+}  // namespace dashpot
