@@ -3,8 +3,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <string>
 #include <string_view>
@@ -15,21 +17,23 @@
 #include <sys/resource.h>
 
 #include "dashpot/base/child_process.h"
+#include "dashpot/error.h"
 #include "hdf5_arrays.h"
+#include "made_files.h"
 #include "mat_arrays.h"
 
 // dashpot-hdf5: what calls the HDF5 and the MAT library, in a process of its own, since a damaged
-// file can end it. Dashpot starts it for one file and takes what it hands over; see
-// docs/decisions/025.
+// file can end it, and the libraries take long to load. Dashpot starts it to read or make one file
+// and takes what it hands over; see docs/decisions/025.
 
 namespace dashpot {
 namespace {
 
-/// A limit that is not there yet, or is looser; the limit that is there may be stricter.
+/// A limit, where none that is stricter is there. The hard one stays: at that of time there is no
+/// SIGXCPU, which tells what it was.
 void limit(__rlimit_resource_t what, rlim_t most) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
-  now.rlim_max = std::min(now.rlim_max, most);
   now.rlim_cur = std::min(now.rlim_cur, most);
   setrlimit(what, &now);
 }
@@ -75,15 +79,45 @@ class HandOver {
   std::size_t used_ = 0;
 };
 
-void read_and_hand_over(std::string_view what, const std::string& file, StoredWriter& to) {
+std::string standard_input() {
+  std::string all;
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const ssize_t n = read(STDIN_FILENO, block.data(), block.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0)
+      throw Error("", std::string("what was asked for cannot be read: ") + strerror(errno));
+    if (n == 0) return all;
+    all.append(block.data(), static_cast<std::size_t>(n));
+  }
+}
+
+/// One thing that it does: reads a file of that name, or makes one of what is asked for.
+struct Work {
+  std::string_view name;
+  void (*read)(const std::filesystem::path& path, StoredWriter& to);
+  std::string (*make)(UnpackedBytes request);
+};
+constexpr Work kWork[] = {{"read-hdf5", hand_over_hdf5, nullptr},
+                          {"read-mat", hand_over_mat, nullptr},
+                          {"write-hdf5", nullptr, hdf5_file},
+                          {"write-mat", nullptr, mat_file}};
+
+void do_and_hand_over(const Work& work, const std::string& file, StoredWriter& to) {
   try {
-    limit_to_reading(std::filesystem::file_size(file));
-    what == "read-mat" ? hand_over_mat(file, to) : hand_over_hdf5(file, to);
+    if (work.read) {
+      limit_to_reading(std::filesystem::file_size(file));
+      work.read(file, to);
+    } else {
+      const std::string request = standard_input();
+      to.file(work.make(UnpackedBytes(request)));
+    }
     to.end();
   } catch (const std::bad_alloc&) {
-    to.fail(file +
-            ": takes more memory than there is for a file of its size; copy it again from "
-            "its source, or free some memory");
+    to.fail(work.read ? file +
+                            ": takes more memory than there is for a file of its size; copy it "
+                            "again from its source, or free some memory"
+                      : "out of memory");
   } catch (const std::exception& error) {
     to.fail(error.what());
   }
@@ -94,19 +128,20 @@ void read_and_hand_over(std::string_view what, const std::string& file, StoredWr
 
 int main(int argc, char** argv) {
   using namespace dashpot;
-  const std::string_view what = argc == 4 ? argv[1] : "";
-  if (what != "read-hdf5" && what != "read-mat") {
-    constexpr std::string_view kOwn = "dashpot-hdf5 is started by Dashpot, to read one file\n";
+  const auto work = std::ranges::find(kWork, argc == 4 ? argv[1] : "", &Work::name);
+  if (work == std::end(kWork)) {
+    constexpr std::string_view kOwn = "dashpot-hdf5 is started by Dashpot, for one file\n";
     return write(STDERR_FILENO, kOwn.data(), kOwn.size()) < 0 ? 1 : 2;
   }
 
   // It ends with the process that has started it, which may have gone already.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[3])) return EXIT_FAILURE;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error
 
   static HandOver over;
   StoredWriter to([](const void* from, std::size_t count) { over.give(from, count); });
-  read_and_hand_over(what, argv[2], to);
+  do_and_hand_over(*work, argv[2], to);
   over.flush();
   _exit(EXIT_SUCCESS);  // HDF5 has an exit handler that trips over files it could not close
 }

@@ -134,6 +134,34 @@ TEST_CASE("every format of recordings, damaged in any way, is read or refused wi
   CHECK(used.ru_maxrss < kMostMemory);
 }
 
+TEST_CASE("a file that ends HDF5 is an error of the file") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("run.h5", without_chunk_sides(hdf5_recording()));
+  const ProgramResult result = run_dashpot("inspect '" + file.string() + "'");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 1);
+  CHECK(result.output.starts_with("error: " + file.string() + ": "));
+}
+
+TEST_CASE("Ctrl-C ends a command while a file of HDF5 is being read") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("run.h5", hdf5_recording());
+  const auto reader =
+      folder.write("dashpot-hdf5", "#!/bin/sh\necho $$ >\"$0.pid\"\nexec sleep 100");
+  std::filesystem::permissions(reader, std::filesystem::perms::owner_all);
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string pid = reader.string() + ".pid";
+  const ProgramResult result = run_program(
+      "( export DASHPOT_PROGRAMS=" + folder.path().string() + "; " + program_path() + " inspect " +
+      file.string() + " & until [ -s " + pid + " ]; do sleep 0.1; done; kill -INT $!; wait $!; " +
+      "code=$?; kill -9 $(cat " + pid + "); exit $code )");
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 130);
+  CHECK(contains(result.output, "interrupted"));
+  CHECK(taken.count() < 60);
+}
+
 TEST_CASE("a packed recording without end is refused within its budget" *
           doctest::test_suite("long")) {
   // Little that unpacks to 1 GB of a text: a packed part, 64 times.

@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include <sys/socket.h>
 #include <sys/wait.h>
 
 #include "dashpot/error.h"
@@ -62,16 +63,23 @@ ChildResult run_child(std::vector<std::string> program_and_arguments) {
 HandingChild::HandingChild(std::vector<std::string> program_and_arguments) {
   const std::string program = program_and_arguments.front();
   const std::vector<char*> words = c_words(program_and_arguments);
-  std::array<int, 2> ends;
+  // A pipe for what it hands over. What it is given goes through a socket, since nobody at the
+  // other end of a pipe would be a signal to this process.
+  std::array<int, 2> ends, input;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error(program, std::strerror(errno));
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.data()) != 0) {
+    for (const int end : ends) close(end);
+    throw Error(program, std::strerror(errno));
+  }
 
   // A large pipe, so that the two take turns less often; where it may not be, a small one does.
   constexpr int kPipeBytes = 1 << 20;
   fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input[1], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], kHandOver);
-  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+  for (const int standard : {STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", O_RDWR, 0);
 
   // No signal is blocked or ignored, whatever this process does with it.
@@ -91,14 +99,24 @@ HandingChild::HandingChild(std::vector<std::string> program_and_arguments) {
       posix_spawn(&child_, program.c_str(), &actions, &attributes, words.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  pipe_ = ends[0];
+  for (const int end : {ends[1], input[1]}) close(end);
+  pipe_ = ends[0], input_ = input[0];
   if (problem == 0) return;
-  close(pipe_);
+  for (const int end : {pipe_, input_}) close(end);
   throw Error(program, std::strerror(problem));
 }
 
 HandingChild::~HandingChild() { wait(); }
+
+void HandingChild::give(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) break;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  shutdown(input_, SHUT_WR);
+}
 
 std::size_t HandingChild::read_some(char* to, std::size_t room) {
   for (;;) {
@@ -133,7 +151,7 @@ ChildStatus HandingChild::wait() {
   if (child_ <= 0) return end;
   end.was_ended = !is_closed_;
   if (end.was_ended) kill(child_, SIGKILL);
-  close(pipe_);
+  for (const int own : {pipe_, input_}) close(own);
 
   int status = 0;
   pid_t waited;

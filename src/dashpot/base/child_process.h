@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sys/types.h>
@@ -37,6 +38,9 @@ class HandingChild {
   HandingChild(const HandingChild&) = delete;
   HandingChild& operator=(const HandingChild&) = delete;
 
+  /// Gives it all of that to read at its standard input, which then ends. Where it does not read
+  /// on, this tells nothing: its end will.
+  void give(std::string_view bytes);
   /// Fills `to` with `count` bytes, with fewer only where the child has closed its end.
   std::size_t take(void* to, std::size_t count);
   /// Waits until it has ended, which it is made to where it has not closed its end yet.
@@ -45,7 +49,7 @@ class HandingChild {
  private:
   std::size_t read_some(char* to, std::size_t room);
 
-  int pipe_ = -1;
+  int pipe_ = -1, input_ = -1;
   pid_t child_ = 0;  ///< 0: waited for
   bool is_closed_ = false;
   std::array<char, 1 << 16> kept_;

@@ -6,7 +6,9 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <iterator>
 #include <matio.h>
+#include <regex>
 #include <spawn.h>
 #include <thread>
 #include <unistd.h>
@@ -75,15 +77,6 @@ class StandIn {
 
 std::string refusal(const fs::path& path) {
   return message_of([&] { read_tables(path); });
-}
-
-/// The layout of a dataset of one dimension that lies in chunks, which now have no sides at all:
-/// HDF5 1.10.8 divides by their product.
-std::string without_chunk_sides(std::string bytes) {
-  const std::size_t at = bytes.find(std::string("\x03\x02\x02", 3));
-  REQUIRE(at != std::string::npos);
-  bytes[at + 2] = 0;
-  return bytes;
 }
 
 }  // namespace
@@ -166,13 +159,13 @@ TEST_CASE("however its reader ends, a file is refused and says why") {
       {"kill -ABRT $$", "is damaged: the HDF5 library was ended by signal 6 (Aborted)"},
       {"kill -XCPU $$", "took more time to read it than any file of its size needs"},
       {"kill -KILL $$", "its reader was ended from outside by signal 9 (Killed); read it again"},
-      {"exit 0", "handed over no more and ended with status 0"},
-      {"exit 3", "handed over no more and ended with status 3"},
+      {"exit 0", "which reads it, ended with status 0"},
+      {"exit 3", "which reads it, ended with status 3"},
       {"echo nonsense that goes on for more than thirty bytes >&3; sleep 100",
-       "dashpot-hdf5, which reads it, handed over"},
+       "handed over what is no recording"},
       {begun + "kill -SEGV $$", "is damaged: the HDF5 library was ended by signal 11"},
       {begun + "exit 0", "ended with status 0"},
-      {real + " \"$1\" \"$2\" $$; echo more >&3", "handed over"}};
+      {real + " \"$1\" \"$2\" $$; echo more >&3", "which reads it, "}};
   for (const auto& one : cases) {
     CAPTURE(one.script);
     const StandIn instead(one.script);
@@ -244,6 +237,11 @@ TEST_CASE("the reader ends with the process that has started it") {
     return name != std::string::npos && text.compare(name + 2, 1, "Z") != 0;
   };
   CHECK(runs());
+  std::ifstream limits("/proc/" + std::to_string(std::stoi(read_file(told))) + "/limits");
+  const std::string text{std::istreambuf_iterator<char>(limits), {}};
+  CAPTURE(text);
+  CHECK(std::regex_search(text, std::regex("Max cpu time +[0-9]+ ")));
+  CHECK(std::regex_search(text, std::regex("Max file size +0 ")));
   kill(shell, SIGKILL);
   waitpid(shell, nullptr, 0);
   for (int k = 0; k < 1000 && runs(); ++k) std::this_thread::sleep_for(10ms);

@@ -10,7 +10,8 @@ namespace {
 /// Counted up whenever what follows it changes, so that programs of two installations see it.
 constexpr std::string_view kStoredGreeting = "dashpot-hdf5 1";
 
-constexpr char kStoredArray = 'A', kStoredNote = 'N', kStoredEnd = 'E', kStoredFailure = 'F';
+constexpr char kStoredArray = 'A', kStoredNote = 'N', kStoredFile = 'B', kStoredEnd = 'E',
+               kStoredFailure = 'F';
 
 /// Takes pieces as long as they are there and within what may come.
 class StoredReader {
@@ -31,6 +32,17 @@ class StoredReader {
     if (!number(size) || size > left_) return false;
     to.resize(size);
     return bytes(to.data(), size);
+  }
+  bool greeting() {
+    std::string text_there;
+    return text(text_there) && text_there == kStoredGreeting;
+  }
+  /// What comes next. Throws the Error that the other end met.
+  bool mark(char& to) {
+    if (!bytes(&to, 1)) return false;
+    std::string message;
+    if (to == kStoredFailure && text(message)) throw Error("", message);
+    return true;
   }
   bool array(StoredArray& to);
 
@@ -83,6 +95,11 @@ void StoredWriter::note(const StoredNote& note) {
   put(note.text);
 }
 
+void StoredWriter::file(std::string_view bytes) {
+  give_(&kStoredFile, 1);
+  put(bytes);
+}
+
 void StoredWriter::end() { give_(&kStoredEnd, 1); }
 
 void StoredWriter::fail(std::string_view message) {
@@ -92,18 +109,24 @@ void StoredWriter::fail(std::string_view message) {
 
 bool take_stored_arrays(const TakeBytes& take, std::size_t most_bytes, StoredArrays& to) {
   StoredReader reader(take, most_bytes);
-  std::string text;
-  if (!reader.text(text) || text != kStoredGreeting) return false;
-  for (char mark = 0; reader.number(mark);) {
+  if (!reader.greeting()) return false;
+  for (char mark = 0; reader.mark(mark);) {
     bool is_whole = false;
     if (mark == kStoredEnd) return true;
     if (mark == kStoredArray) is_whole = reader.array(to.arrays.emplace_back());
     if (mark == kStoredNote)
       is_whole = reader.text(to.notes.emplace_back().group) && reader.text(to.notes.back().text);
-    if (mark == kStoredFailure && reader.text(text)) throw Error("", text);
     if (!is_whole) return false;
   }
   return false;
+}
+
+bool take_stored_file(const TakeBytes& take, std::string& to) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 32;
+  StoredReader reader(take, kMostBytes);
+  char mark = 0;
+  return reader.greeting() && reader.mark(mark) && mark == kStoredFile && reader.text(to) &&
+         reader.mark(mark) && mark == kStoredEnd;
 }
 
 }  // namespace dashpot

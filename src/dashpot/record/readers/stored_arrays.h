@@ -64,6 +64,8 @@ class StoredWriter {
   template <class Number>
   void add_column(const Number* from, std::size_t count, std::size_t stride);
   void note(const StoredNote& note);
+  /// In place of all these, where a file was to be made: its bytes.
+  void file(std::string_view bytes);
   void end();
   void fail(std::string_view message);
 
@@ -76,6 +78,8 @@ class StoredWriter {
 /// The other end. False where it breaks off or is none of this, or more than `most_bytes`. Throws
 /// the Error that the process met.
 bool take_stored_arrays(const TakeBytes& take, std::size_t most_bytes, StoredArrays& to);
+/// The same for a file that was made.
+bool take_stored_file(const TakeBytes& take, std::string& to);
 
 template <class Number>
 void StoredWriter::add_column(const Number* from, std::size_t count, std::size_t stride) {

@@ -14,36 +14,43 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
-/// What ended the process that should have read the file to its end.
+/// Why the process that reads a file has not handed it over to its end.
 [[noreturn]] void refuse_stored(const std::string& file, const std::string& library,
                                 const ChildStatus& end) {
+  const std::string copy = "copy it again from its source";
   const char* known = sigdescr_np(end.signal);
   const std::string signal =
       "signal " + std::to_string(end.signal) + (known ? " (" + std::string(known) + ")" : "");
   switch (end.was_ended ? 0 : end.signal) {
-    case 0:
-      throw Error(file,
-                  "was not read to its end: dashpot-hdf5, which reads it, handed over no more and "
-                  "ended with status " +
-                      std::to_string(end.exit_status),
-                  "copy it again from its source; where all files of its kind are refused, install "
-                  "Dashpot anew");
-    case SIGXCPU:
-      throw Error(file,
-                  "is damaged: the " + library +
-                      " library took more time to read it than any file "
-                      "of its size needs",
-                  "copy it again from its source");
-    case SIGKILL:
-    case SIGTERM:
-      throw Error(file, "was not read to its end: its reader was ended from outside by " + signal,
-                  "read it again, with more memory if that was short");
-    default:
+    case SIGSEGV:
+    case SIGBUS:
+    case SIGFPE:
+    case SIGILL:
+    case SIGABRT:
+    case SIGTRAP:
+    case SIGSYS:
       throw Error(
           file,
           "is damaged: the " + library + " library was ended by " + signal + " while reading it",
-          "copy it again from its source");
+          copy);
+    case SIGXCPU:
+      throw Error(file,
+                  "is damaged: the " + library +
+                      " library took more time to read it than any file of its size needs",
+                  copy);
+    case 0:
+      break;
+    default:
+      throw Error(file, "was not read to its end: its reader was ended from outside by " + signal,
+                  "read it again, with more memory if that was short");
   }
+
+  // With sanitizers each fault of the library ends so.
+  std::string how = "ended before it had handed over all";
+  if (end.was_ended) how = "handed over what is no recording";
+  if (end.exit_status >= 0) how = "ended with status " + std::to_string(end.exit_status);
+  throw Error(file, "was not read to its end: dashpot-hdf5, which reads it, " + how,
+              copy + "; where all files of its kind are refused, install Dashpot anew");
 }
 
 }  // namespace
