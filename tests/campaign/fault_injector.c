@@ -18,6 +18,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/types.h>
 
@@ -130,6 +131,9 @@ static long number_of(const char* name) {
 static int tells_points(void) {
   active = 0;
   if (!count_file[0]) return 1;
+  struct rlimit size; /* a program may have forbidden itself to write files */
+  if (getrlimit(RLIMIT_FSIZE, &size) == 0)
+    size.rlim_cur = size.rlim_max, setrlimit(RLIMIT_FSIZE, &size);
   const int to = open(count_file, O_WRONLY | O_CREAT | O_TRUNC, 0666);
   char text[32];
   const int length = snprintf(text, sizeof text, "%ld\n", (long)points);
