@@ -7,7 +7,8 @@
 #include "dashpot/error.h"
 #include "dashpot/record/readers/stored_arrays.h"
 
-// Alone in its file: the fuzzers, which look for faults, read in their own process instead.
+// Alone in its file: the fuzzers, which look for faults, read in their own process instead; see
+// tests/fuzz/hdf5_in_process.cpp.
 
 namespace fs = std::filesystem;
 
