@@ -69,8 +69,11 @@ inline Lane atan(Lane x) {
 }
 /// Most powers are the first or the second.
 inline Lane pow(Lane base, Lane power) {
-  if (!any(power != 1)) return base;
-  for (std::size_t k = 0; k < kWidth; ++k) base[k] = __builtin_pow(base[k], power[k]);
+  const LaneMask other = (power != 1) & (power != 2);
+  const Lane quick = power == 2 ? base * base : base;
+  if (!any(other)) return quick;
+  for (std::size_t k = 0; k < kWidth; ++k)
+    base[k] = other[k] ? __builtin_pow(base[k], power[k]) : quick[k];
   return base;
 }
 

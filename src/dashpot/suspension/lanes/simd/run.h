@@ -23,6 +23,7 @@ class LaneRun {
   void run() {
     // All lanes at their first sample.
     LaneMask riding = all(0) == 0;
+    steps_.begin(state_);
     meet_ground(riding);
     steps_.refresh(state_, command_, riding, road_.node[0]);
     take_sample(riding);
