@@ -28,7 +28,7 @@ class AdaptiveSteps {
     Lane d[kSize];  ///< heights (0, 1), speeds (2, 3), damper (from 4), currents (from 4 + kStates)
     Lane force;     ///< N
     Lane along;     ///< m/s, along the branch of the loop, and
-    Lane steep;     ///< how steep its r is there (LoopLanes)
+    Lane steep;     ///< how steep its r is there (LoopPath)
   };
   using Loop = typename Damper::Loop;
   static_assert(kLags <= 2, "driver and model");
@@ -38,7 +38,7 @@ class AdaptiveSteps {
       : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
   /// Before all else: a loop's state as the steps have it.
-  void begin(State& state) const {
+  void begin(State& state) {
     if constexpr (Loop::kExists) looped(state.z) = car_.damper.loop.folded(looped(state.z));
   }
   /// Forces at the start of a sample, after the command has changed in some lanes.
@@ -63,7 +63,7 @@ class AdaptiveSteps {
     LaneMask accepted = riding & ((error <= 1) | (h <= least) | (error != error));
     typename Loop::Met met;
     if constexpr (Loop::kExists) {
-      met = car_.damper.loop.meet(first_.along, ending.along, lowest_, h, kNearTurn * whole);
+      met = car_.damper.loop.meet(speeds_, h, kNearTurn * whole);
       accepted &= ~met.over;
     }
 
@@ -78,7 +78,8 @@ class AdaptiveSteps {
     const Lane proposed = fmin(fmax(h * factor, least), whole);
     next_ = riding ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
     done_ = accepted ? (last ? Lane{} : done_ + h) : done_;
-    if constexpr (Loop::kExists) take_turns(met, state, command, road, accepted, accepted & last, riding);
+    if constexpr (Loop::kExists)
+      take_turns(met, state, command, road, accepted, accepted & last, riding);
 
     // With one lag the coil's current is either the driving one or, where the driver has no lag,
     // the command.
@@ -122,7 +123,7 @@ class AdaptiveSteps {
     const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_at_wheel(x, road);
     car_.damper.derivative(x[0] - x[1], x[2] - x[3], z, out.d + 4);
     if constexpr (Loop::kExists) {
-      out.along = car_.damper.loop.along(x[2] - x[3], out.d + 4);
+      out.along = car_.damper.loop.along(Damper::LoopOfLaw::travel(x[2] - x[3], out.d + 4));
       out.steep = place.steep;
       looped(out.d + 4) = car_.damper.loop.folded_rate(looped(out.d + 4), out.along, place);
     }
@@ -143,7 +144,7 @@ class AdaptiveSteps {
   /// The state of the damper's loop among its states.
   template <class Number>
   static Number& looped(Number* z) {
-    return z[Loop::kState];
+    return z[Damper::LoopOfLaw::kState];
   }
 
   /// On to other branches, and lengths of steps that go by turns.
@@ -229,7 +230,10 @@ class AdaptiveSteps {
     // Stage 7 is the end of the step, and its slope the first one of the next step.
     move<6>(from, h, end, k1, k2, k3, k4, k5, k6);
     k7 = slope(end, command, road_of(6));
-    if constexpr (Loop::kExists) lowest_ = fmin(fmin(k3.along, k4.along), fmin(k5.along, k6.along));
+    if constexpr (Loop::kExists) {
+      static_assert(DormandPrince::kAt[2] == Loop::kEarly && DormandPrince::kAt[3] == Loop::kLate);
+      speeds_ = {k1.along, k3.along, k4.along, k7.along};
+    }
 
     // The error: what the embedded solution of order 4 differs by.
     State off;
@@ -255,7 +259,7 @@ class AdaptiveSteps {
     for (std::size_t k = 0; k < kStates; ++k) {
       Lane error = fabs(off.z[k]), size = fabs(from.z[k]) + fabs(h * first_.d[4 + k]);
       if constexpr (Loop::kExists)
-        if (k == Loop::kState) {
+        if (k == Damper::LoopOfLaw::kState) {
           error = car_.damper.loop.error(error, first_.steep, k7.steep);
           size = car_.damper.loop.size(size);
         }
@@ -265,14 +269,15 @@ class AdaptiveSteps {
   }
 
   /// Of a sample: the shortest step to a turn of a loop, and the first one after it.
-  static constexpr double kNearTurn = 1.0 / 4096, kAfterTurn = 0.2;
+
+  static constexpr double kNearTurn = 1.0 / 65536, kAfterTurn = 0.2;
 
   const LaneRide& ride_;
   Car& car_;
-  Lane lowest_{};  ///< m/s, along the branch within the last try
-  Lane next_;      ///< s, the length to try next
-  Lane done_{};    ///< s of the present sample
-  Slope first_{};  ///< at the present state
+  typename Loop::Speeds speeds_;  ///< of the last try
+  Lane next_;                     ///< s, the length to try next
+  Lane done_{};                   ///< s of the present sample
+  Slope first_{};                 ///< at the present state
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/suspension/lanes/ride.h"
-#include "dashpot/suspension/lanes/simd/loop.h"
+#include "dashpot/suspension/lanes/simd/lane_math.h"
 
 namespace dashpot {
 namespace {
@@ -9,7 +9,16 @@ namespace {
 //   set_current(i)            i A, from now on
 //   force(x, v, z)            N, x m and v m/s of the damper, extension positive
 //   derivative(x, v, z, dz)   z' of its states
-//   Loop, loop                its hysteresis loop, if it has one (loop.h)
+//   Loop, loop                its hysteresis loop, a LoopPath, if it has one
+
+/// For dampers without a hysteresis loop.
+struct NoLoop {
+  static constexpr bool kExists = false;
+  using Loop = NoLoop;
+  struct Met {};
+  struct Place {};
+  struct Speeds {};
+};
 
 /// A static network, one set of weights per lane, in the order of Mlp::parameters with scale and
 /// mean of the output behind them. The current's part of the first layer is added up once for all
@@ -135,8 +144,8 @@ class NetworkLanes {
 };
 
 /// A law whose text is compiled for lanes (laws.h): P, its struct of parameters, a Lane each, its
-/// functions, and what LoopLanes wants to know of its loop. A parameter may follow the current as a
-/// polynomial; those that do are kept in a list.
+/// functions, and its hysteresis loop, which LawLoop knows (BoucWenLoop). A parameter may follow
+/// the current as a polynomial; those that do are kept in a list.
 template <class P, auto Force, auto Derivative, std::size_t kCount, class LawLoop = NoLoop>
 class LawLanes {
  public:
@@ -152,10 +161,14 @@ class LawLanes {
       __builtin_memcpy(reinterpret_cast<char*>(&law_) + k * sizeof value, &value, sizeof value);
       if (any(varies)) varying_[count_++] = k;
       if constexpr (LawLoop::kExists)
-        for (const std::size_t shape : LawLoop::kShape)
-          if (shape == k) loop_varies |= varies;
+        for (const std::size_t place : LawLoop::kShape)
+          if (place == k) loop_varies |= varies;
     }
-    if constexpr (LawLoop::kExists) loop = Loop(ride, law_, loop_varies);
+    if constexpr (LawLoop::kExists) {
+      const auto shape = LawLoop::shape(law_);
+      loop =
+          Loop(shape, ride.absolute_tolerance + ride.relative_tolerance * shape.z_max, loop_varies);
+    }
   }
 
   void set_current(Lane current) {
@@ -175,7 +188,8 @@ class LawLanes {
   }
   Lane force(Lane x, Lane v, const Lane* z) const { return Force(&law_, x, v, z); }
 
-  using Loop = LoopOf<LawLoop>;
+  using Loop = typename LawLoop::Loop;
+  using LoopOfLaw = LawLoop;
   Loop loop;
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 #include <math.h>
 
+#include "dashpot/suspension/dampers/loop_path.h"
 #include "dashpot/suspension/lanes/simd/dampers.h"
 
 // The laws that ride in lanes. Each is the C text of its law, in which the build has written Lane,
@@ -13,26 +14,38 @@ namespace {
 
 #include "lanes/law_texts.h"
 
-/// The loop that Bouc-Wen laws have in common, of their parameters P (LoopLanes).
-template <class P>
+/// What LoopPath wants to know of Bouc-Wen's loop.
+struct BoucWenLanesKind {
+  using Number = Lane;
+  static bool any(LaneMask mask) { return dashpot::any(mask); }
+  static Lane exp_of_twice(Lane r) { return dashpot::exp_of_twice<double>(r); }
+  static Lane arctanh(Lane m, LaneMask where) {
+    for (std::size_t k = 0; k < kWidth; ++k) m[k] = where[k] ? __builtin_atanh(m[k]) : m[k];
+    return m;
+  }
+  static Lane slope(const LoopShape<Lane>& loop, Lane m) {
+    return normalised_bouc_wen_slope(loop.sigma, loop.n, m);
+  }
+};
+/// The loop of a law with parameters P: kState, the place of z among its states; kShape, those of
+/// the parameters that it depends on; travel(v, dz), m/s, the speed that drives it.
+template <class P, std::size_t kPlace>
 struct BoucWenLoop {
-  using Parameters = P;
   static constexpr bool kExists = true;
+  using Loop = LoopPath<BoucWenLanesKind>;
+  static constexpr std::size_t kState = kPlace;
   static constexpr std::size_t kShape[] = {
       offsetof(P, gamma) / sizeof(Lane), offsetof(P, beta) / sizeof(Lane),
       offsetof(P, A) / sizeof(Lane), offsetof(P, n) / sizeof(Lane)};
-  static Lane z_max(const P* p) { return bouc_wen_z_max(p->A, p->gamma, p->beta, p->n); }
-  static Lane rate(const P* p) { return p->A / z_max(p); }
-  static Lane slope(const P* p, Lane m) {
-    return normalised_bouc_wen_slope(p->gamma / (p->gamma + p->beta), p->n, m);
+  static LoopShape<Lane> shape(const P& p) {
+    const Lane z_max = bouc_wen_z_max(p.A, p.gamma, p.beta, p.n);
+    return {z_max, p.A / z_max, p.gamma / (p.gamma + p.beta), p.n};
   }
 };
-struct SimpleLoop : BoucWenLoop<BoucWen> {
-  static constexpr std::size_t kState = 0;
+struct SimpleLoop : BoucWenLoop<BoucWen, 0> {
   static Lane travel(Lane v, const Lane*) { return v; }
 };
-struct SeriesLoop : BoucWenLoop<ModifiedBoucWen> {
-  static constexpr std::size_t kState = 1;
+struct SeriesLoop : BoucWenLoop<ModifiedBoucWen, 1> {
   static Lane travel(Lane v, const Lane* dz) { return v - dz[0]; }
 };
 

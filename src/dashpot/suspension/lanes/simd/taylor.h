@@ -37,7 +37,7 @@ class TaylorSteps {
  public:
   TaylorSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car) {}
 
-  void begin(State&) const {}
+  void begin(State&) {}
   /// Forces at the start of a sample, after the command has changed in some lanes.
   void refresh(const State& state, Lane, LaneMask changed, Lane road) {
     expand_damper(state.x);
