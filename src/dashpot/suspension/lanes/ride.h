@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
 
 #include "dashpot/damper/nets/kernel.h"
@@ -70,6 +71,10 @@ struct LaneRide {
   /// Height and rate under a lane at kLaneNodes half samples from number `first` on, into rows.
   void (*ground)(void* pilot, std::size_t lane, std::size_t first, double* heights,
                  double* rates) = nullptr;
+  /// Rows of LaneControlNumber, for a control law by its place in kLaneControls; null: `control` is
+  /// asked.
+  std::size_t control_law = 0;
+  const double* control_numbers = nullptr;
   /// LaneSignal rows in, commands within the driver's limits out, for the lanes whose `which` is
   /// not 0. Null: the commands stay.
   void (*control)(void* pilot, const double* signals, double* commands,
@@ -97,6 +102,13 @@ enum LaneSignal : std::size_t {
   kWheel,
   kGround,
   kLaneSignals
+};
+/// What a control law in lanes knows of its vehicle.
+enum LaneControlNumber : std::size_t {
+  kControlParameter,
+  kSoftCurrent,  ///< A, commanded where the law wants the least damping, and where the most
+  kHardCurrent,
+  kLaneControlNumbers
 };
 /// Sums over the samples that count, but for the last four.
 enum LaneResult : std::size_t {
@@ -144,5 +156,11 @@ const RideKernel& ride_kernel(std::size_t vehicles);
 /// Names of the laws that have lanes, in alphabetical order. LaneRide::law is a place in this
 /// table; simd/laws.h holds their code in the same order.
 inline constexpr std::string_view kLaneLaws[] = {"bingham", "bouc_wen", "modified_bouc_wen"};
+
+/// Names of the control laws that have lanes, in alphabetical order: LaneRide::control_law is a
+/// place in this table; simd/controls.h holds their code in the same order.
+inline constexpr std::string_view kLaneControls[] = {"add", "groundhook", "mix1", "sh_add",
+                                                     "skyhook"};
+constexpr std::size_t kNoLaneControl = std::size(kLaneControls);
 
 }  // namespace dashpot
