@@ -58,21 +58,27 @@ class TanhNeurons {
     const Vector i = spread(current);
     for (Neurons* n = neurons_; n < end_; ++n) n->at_rest = n->bias + n->by_current * i;
   }
-  /// f_k around a velocity, N (s/m)^k: all kTerms of them, or the force f_0 alone. Two sums share a
-  /// division, which takes longer than all else.
-  template <std::size_t kCount>
-  void expand(Lane velocity, Lane (&force)[kCount]) const {
-    static_assert(kCount == 1 || kCount == kTerms);
-    Vector sum[kCount]{};
+  /// The neurons' tanh at a velocity and the present current, for what follows. Two sums share a
+  /// division, which takes longer than all else. Returns the force, N.
+  Lane move_to(Lane velocity) {
+    Vector sum{};
     const Vector v = spread(velocity);
-    for (const Neurons* n = neurons_; n < end_; n += 2) {
+    for (Neurons* n = neurons_; n < end_; n += 2) {
       const Vector a = 1 + exp_of_twice<Real>(n[0].at_rest + n[0].by_velocity * v),
                    b = 1 + exp_of_twice<Real>(n[1].at_rest + n[1].by_velocity * v),
                    less = 2 / (a * b);
-      add(n[0], 1 - less * b, sum);
-      add(n[1], 1 - less * a, sum);
+      n[0].tanh = 1 - less * b;
+      n[1].tanh = 1 - less * a;
+      sum += n[0].out[0] * n[0].tanh;
+      sum += n[1].out[0] * n[1].tanh;
     }
-    for (std::size_t k = 0; k < kCount; ++k) force[k] = gathered(sum[k]);
+    return gathered(sum) + mean_;
+  }
+  /// f_k there, N (s/m)^k.
+  void expand(Polynomial& force) const {
+    Vector sum[kTerms]{};
+    for (const Neurons* n = neurons_; n < end_; ++n) add(*n, sum);
+    for (std::size_t k = 0; k < kTerms; ++k) force[k] = gathered(sum[k]);
     force[0] += mean_;
   }
 
@@ -84,6 +90,7 @@ class TanhNeurons {
   struct Neurons {
     Vector bias{}, by_current{}, by_velocity{};
     Vector at_rest{};      ///< the sum s at the present current and no velocity
+    Vector tanh{};         ///< at the velocity of move_to()
     Vector out[kTerms]{};  ///< output weight times by_velocity^k
   };
 
@@ -117,20 +124,17 @@ class TanhNeurons {
   }
 
   /// Adds what these neurons give to f_k: out b^k t^(k) / k!; t is their tanh.
-  template <std::size_t kCount>
-  [[gnu::always_inline]] static void add(const Neurons& neurons, Vector t, Vector (&sum)[kCount]) {
+  [[gnu::always_inline]] static void add(const Neurons& neurons, Vector (&sum)[kTerms]) {
     static_assert(kTerms == 6, "one line per derivative of tanh");
     constexpr Real kThird = Real(1) / 3;
     const Vector(&out)[kTerms] = neurons.out;
+    const Vector t = neurons.tanh, square = t * t, slope = 1 - square, bent = t * slope;
     sum[0] += out[0] * t;
-    if constexpr (kCount == kTerms) {
-      const Vector square = t * t, slope = 1 - square, bent = t * slope;
-      sum[1] += out[1] * slope;
-      sum[2] -= out[2] * bent;
-      sum[3] += out[3] * (slope * (square - kThird));
-      sum[4] -= out[4] * (bent * (square - 2 * kThird));
-      sum[5] += out[5] * (slope * (square * (square - 1) + Real(0.4) * kThird));
-    }
+    sum[1] += out[1] * slope;
+    sum[2] -= out[2] * bent;
+    sum[3] += out[3] * (slope * (square - kThird));
+    sum[4] -= out[4] * (bent * (square - 2 * kThird));
+    sum[5] += out[5] * (slope * (square * (square - 1) + Real(0.4) * kThird));
   }
 
   Lane mean_;  ///< N, the output where all neurons give 0

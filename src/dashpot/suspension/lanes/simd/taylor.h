@@ -40,8 +40,7 @@ class TaylorSteps {
   void begin(State&) {}
   /// Forces at the start of a sample, after the command has changed in some lanes.
   void refresh(const State& state, Lane, LaneMask changed, Lane road) {
-    expand_damper(state.x);
-    keep(state.x, damper_[0], road, changed);
+    keep(state.x, damper_at(state.x), road, changed);
   }
   /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
   Lane force() const { return force_; }
@@ -54,7 +53,8 @@ class TaylorSteps {
     do {
       // Terms of the series around the present state, and how far they carry.
       Lane x[kOrder + 1][4];
-      if (!expanded_) expand_damper(state.x);
+      if (!known_) damper_at(state.x);
+      car_.damper.expand(damper_);
       expand(state.x, road, done, x);
       const Lane share = length(x, left);
 
@@ -64,7 +64,7 @@ class TaylorSteps {
         for (std::size_t k = kOrder; k-- > 0;) sum = x[k][i] + share * sum;
         state.x[i] = sum;
       }
-      expanded_ = false;
+      known_ = false;
 
       // What is left of the sample, exactly 0 where the step reached its end.
       steps += left > 0 ? all(1) : Lane{};
@@ -73,9 +73,7 @@ class TaylorSteps {
     } while (any(left > 0));
 
     // Forces at the end, which the controller and the measures see.
-    Lane force[1];
-    car_.damper.expand(state.x[2] - state.x[3], force);
-    keep(state.x, force[0], road.node[2], riding);
+    keep(state.x, damper_at(state.x), road.node[2], riding);
     return riding;
   }
 
@@ -83,11 +81,11 @@ class TaylorSteps {
   Lane steps{};       ///< taken in each lane
 
  private:
-  /// Kept out of line: inlined copies may round differently, and a lane's bits must not depend on
+  /// The damper's force, N, at the present velocity, which it knows then. Kept out of line: inlined copies may round differently, and a lane's bits must not depend on
   /// the place it is called from.
-  [[gnu::noinline]] void expand_damper(const Lane* x) {
-    car_.damper.expand(x[2] - x[3], damper_);
-    expanded_ = true;
+  [[gnu::noinline]] Lane damper_at(const Lane* x) {
+    known_ = true;
+    return car_.damper.move_to(x[2] - x[3]);
   }
   void keep(const Lane* x, Lane force, Lane road, LaneMask which) {
     force_ = which ? force : force_;
@@ -172,7 +170,7 @@ class TaylorSteps {
   const LaneRide& ride_;
   Car& car_;
   typename Damper::Polynomial damper_;  ///< around the velocity at which it was expanded
-  bool expanded_ = false;               ///< it is the present velocity
+  bool known_ = false;                  ///< the damper knows it at the present velocity
   Lane force_{}, acceleration_[2]{};
 };
 
