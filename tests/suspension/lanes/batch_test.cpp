@@ -128,6 +128,29 @@ TEST_CASE("lanes ride as simulate() does: networks, laws, lags, stops, tyres tha
   }
 }
 
+TEST_CASE("control laws of two states command in lanes what they command of simulate()") {
+  for (const char* law : {"add", "groundhook", "mix1,crossover=2.5Hz", "sh_add", "skyhook"}) {
+    CAPTURE(law);
+    Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), nullptr, 3);
+    const ControlLimits own{.damping_min = 800, .damping_max = 3000};  // of the law, not the way
+    fleet.controller = make_controller(law, {own, fleet.plants[0]});
+    for (BatchVehicle& vehicle : fleet.vehicles)
+      vehicle.setting.controller = fleet.controller.get();
+    const BatchOptions options{.duration = 1, .relative_tolerance = 1e-8, .traces = true};
+    const BatchVehicle& last = fleet.vehicles[2];
+    const Record lanes = simulate_batch(fleet.vehicles, options)[2].trace;
+    const Trace trace =
+        simulate(last.setting, {.duration = 1, .relative_tolerance = 1e-8, .limits = last.limits});
+    CHECK(apart(lanes, trace.record, "suspension_current") < 1e-12);
+    CHECK(apart(lanes, trace.record, "body") < 1e-6);
+
+    // Both states were commanded.
+    const std::vector<double>& current = lanes.channel("suspension_current").samples;
+    CHECK(*std::ranges::min_element(current) < *std::ranges::max_element(current));
+    CHECK(*std::ranges::min_element(current) > 0.1);
+  }
+}
+
 TEST_CASE("a network of velocity keeps the tolerance in lanes, in single precision, too") {
   // By a series in time; the same in double precision at 1e-10 is what it is compared with.
   for (const std::size_t neurons : {7, 10})

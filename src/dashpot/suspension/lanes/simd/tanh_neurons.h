@@ -48,9 +48,8 @@ class TanhNeurons {
       for (std::size_t k = 0; k < kTerms; ++k, power *= by_velocity) put(power, to.out[k], place);
     }
 
-    // expand() takes vectors in pairs; neurons of no weight fill the last one.
-    const std::size_t pair = 2 * kTogether;
-    end_ = neurons_ + (layer.outputs + pair - 1) / pair * 2;
+    // Neurons of no weight fill the last vector.
+    end_ = neurons_ + (layer.outputs + kTogether - 1) / kTogether;
     mean_ = load(scale) * load(out + layer.outputs * kWidth) + load(scale + kWidth);
   }
 
@@ -63,7 +62,8 @@ class TanhNeurons {
   Lane move_to(Lane velocity) {
     Vector sum{};
     const Vector v = spread(velocity);
-    for (Neurons* n = neurons_; n < end_; n += 2) {
+    Neurons* n = neurons_;
+    for (; n + 1 < end_; n += 2) {
       const Vector a = 1 + exp_of_twice<Real>(n[0].at_rest + n[0].by_velocity * v),
                    b = 1 + exp_of_twice<Real>(n[1].at_rest + n[1].by_velocity * v),
                    less = 2 / (a * b);
@@ -71,6 +71,10 @@ class TanhNeurons {
       n[1].tanh = 1 - less * a;
       sum += n[0].out[0] * n[0].tanh;
       sum += n[1].out[0] * n[1].tanh;
+    }
+    if (n < end_) {
+      n->tanh = 1 - 2 / (1 + exp_of_twice<Real>(n->at_rest + n->by_velocity * v));
+      sum += n->out[0] * n->tanh;
     }
     return gathered(sum) + mean_;
   }
@@ -86,7 +90,7 @@ class TanhNeurons {
   using Vector = Lanes<Real>;
   static constexpr std::size_t kTogether = kLanes<Real> / kWidth;  ///< neurons per vector
   static_assert(kTogether == 1 || kTogether == 2, "double or float");
-  static_assert(kMaxWidth % (2 * kTogether) == 0, "the last pair of vectors is within neurons_");
+  static_assert(kMaxWidth % kTogether == 0, "the last vector is within neurons_");
   struct Neurons {
     Vector bias{}, by_current{}, by_velocity{};
     Vector at_rest{};      ///< the sum s at the present current and no velocity

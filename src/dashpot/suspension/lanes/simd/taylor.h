@@ -81,8 +81,9 @@ class TaylorSteps {
   Lane steps{};       ///< taken in each lane
 
  private:
-  /// The damper's force, N, at the present velocity, which it knows then. Kept out of line: inlined copies may round differently, and a lane's bits must not depend on
-  /// the place it is called from.
+  /// The damper's force, N, at the present velocity, which it knows then. Kept out of line: inlined
+  /// copies may round differently, and a lane's bits must not depend on the place it is called
+  /// from.
   [[gnu::noinline]] Lane damper_at(const Lane* x) {
     known_ = true;
     return car_.damper.move_to(x[2] - x[3]);
