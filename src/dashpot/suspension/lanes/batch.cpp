@@ -64,6 +64,7 @@ class LaneBatch {
     ride_.lags = shape.lags;
     ride_.resists_more = shape.resists_more;
     ride_.control_law = shape.control;
+    ride_.moderate = shape.moderate;
     ride_.network = &shape.network;
     ride_.sample_time = shape.sample_time;
     ride_.relative_tolerance = options.relative_tolerance;

@@ -35,7 +35,21 @@ void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
   }
 }
 
-void set_network(const NetworkModel& model, LaneVehicle& lane) {
+/// Whether no neuron of the first layer exceeds kMostAtRest at any of the driver's currents.
+bool is_moderate(const Mlp& mlp, const LaneNetwork& shape, const DriverOptions& driver) {
+  const double current = std::max(std::abs(driver.current_min), std::abs(driver.current_max));
+  const std::size_t inputs = mlp.layers[0], neurons = mlp.layers[1];
+  for (std::size_t n = 0; n < neurons; ++n) {
+    double sum = std::abs(mlp.parameters[inputs * neurons + n]);
+    for (std::size_t i = 0; i < inputs; ++i)
+      if (shape.inputs[i] == LaneInput::Current)
+        sum += current * std::abs(mlp.parameters[n * inputs + i]);
+    if (!(sum <= kMostAtRest)) return false;
+  }
+  return true;
+}
+
+void set_network(const NetworkModel& model, const DriverOptions& driver, LaneVehicle& lane) {
   const Mlp mlp = on_raw_inputs(model.members()[0]);
   LaneNetwork& shape = lane.shape.network;
   shape.count = mlp.layers.size() - 1;
@@ -45,6 +59,7 @@ void set_network(const NetworkModel& model, LaneVehicle& lane) {
                                                           : LaneInput::Current;
   for (std::size_t l = 0; l < shape.count; ++l)
     shape.layers[l] = {mlp.layers[l], mlp.layers[l + 1], mlp.activation(l + 1)};
+  lane.shape.moderate = is_moderate(mlp, shape, driver);
   lane.damper = mlp.parameters;
   lane.damper.push_back(mlp.output_scale);
   lane.damper.push_back(mlp.output_mean + model.offset());
@@ -142,7 +157,7 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
 
   // The damper.
   if (const auto* network = model_as<NetworkModel>(*damper.model))
-    set_network(*network, lane);
+    set_network(*network, damper.driver, lane);
   else
     set_law(*model_as<LawModel>(*damper.model), lane);
 

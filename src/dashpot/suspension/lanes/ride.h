@@ -26,6 +26,10 @@ struct QuarterCarNumbers {
   Number driver_lag, model_lag;  ///< 1/s; 0: none
 };
 
+/// The greatest sum of a neuron's bias and current, whatever its sign, with which a network's exp
+/// may be split into that of the current and that of the velocity.
+constexpr int kMostAtRest = 30;
+
 enum class LaneDamperKind { Network, Law };
 enum class LaneInput : std::uint8_t { Displacement, Velocity, Current };
 
@@ -54,6 +58,7 @@ struct LaneRide {
   std::size_t law = 0;   ///< its place in kLaneLaws
   std::size_t lags = 0;  ///< of driver and model, on the way to the current that drives the damper
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
+  bool moderate = false;      ///< no neuron of the first layer exceeds kMostAtRest at rest
   double relative_tolerance = 0, absolute_tolerance = 0;
   double sample_time = 0;           ///< s
   std::size_t samples = 0;          ///< after the one at rest

@@ -94,10 +94,9 @@ class LaneRun {
     const auto number = [&](LaneControlNumber row) {
       return load(ride_.control_numbers + row * kWidth);
     };
-    const Lane demand =
-        lane_controls::demand_of(ride_.control_law, number(kControlParameter),
-                                 {number(kSoftCurrent), number(kHardCurrent)},
-                                 {x[2], steps_.acceleration(0), x[3], x[2] - x[3]});
+    const Lane demand = lane_controls::demand_of(ride_.control_law, number(kControlParameter),
+                                                 {number(kSoftCurrent), number(kHardCurrent)},
+                                                 {x[2], steps_.acceleration(0), x[3], x[2] - x[3]});
     return which ? demand : command_;
   }
 

@@ -85,8 +85,9 @@ class TaylorSteps {
   /// copies may round differently, and a lane's bits must not depend on the place it is called
   /// from.
   [[gnu::noinline]] Lane damper_at(const Lane* x) {
+    if (!known_) car_.damper.move_to(x[2] - x[3]);
     known_ = true;
-    return car_.damper.move_to(x[2] - x[3]);
+    return car_.damper.respond();
   }
   void keep(const Lane* x, Lane force, Lane road, LaneMask which) {
     force_ = which ? force : force_;
@@ -146,23 +147,26 @@ class TaylorSteps {
   Lane length(const Lane (&x)[kOrder + 1][4], Lane left) {
     constexpr double kLeast = 1.0 / 256;
 
-    // The last term over a whole sample, in tolerances; heights and speeds each by their greatest.
+    // The last term over a whole sample, and what it may be; heights and speeds each by their
+    // greatest.
     const auto greatest = [&](std::size_t k, std::size_t i) {
       return fmax(fabs(x[k][i]), fabs(x[k][i + 1]));
     };
-    const auto error = [&](std::size_t i) {
-      return greatest(kOrder, i) / (ride_.absolute_tolerance +
-                                    ride_.relative_tolerance * (greatest(0, i) + greatest(1, i)));
+    const auto allowed = [&](std::size_t i) {
+      return ride_.absolute_tolerance +
+             ride_.relative_tolerance * (greatest(0, i) + greatest(1, i));
     };
-    const Lane off = fmax(error(0), error(2));
+    const Lane heights = greatest(kOrder, 0), speeds = greatest(kOrder, 2),
+               heights_may = allowed(0), speeds_may = allowed(2);
 
     // All that is left in one step, where the term is small enough at its end.
-    const Lane square = left * left, here = off * (square * square) * square;
-    const LaneMask whole = here <= 1;
+    const Lane square = left * left, power = square * square * square;
+    const LaneMask whole = (heights * power <= heights_may) & (speeds * power <= speeds_may);
     if (!any(~whole)) return left;
 
     // Else the share at which it would just be: off^(-1/6), for which off^(-1/5), which is shorter,
     // stands since off > 1.
+    const Lane off = fmax(heights / heights_may, speeds / speeds_may);
     const Lane shorter = fmin(fmax(0.9 * about_fifth_root_below(off), kLeast), left);
     missed = missed | (~whole & (shorter <= kLeast) & (left > kLeast));
     return whole ? left : shorter;
