@@ -186,9 +186,11 @@ Equations spencer_equations(double voltage) {
 }  // namespace
 
 TEST_CASE("a stated tolerance is kept where hysteresis is stiff, and without short steps") {
+  // A point of the road at each ms: where its third derivative jumps within a step, none of these
+  // methods keeps 1e-8, with a linear damper neither.
   const Plant plant = load_plant_set("savaresi_spelta").plant;
   const GroundPointer road =
-      make_ground("iso8608,class=F,length=60,speed=30,wave_number_max=1,waves=200", 5);
+      make_ground("iso8608,class=F,length=60,speed=20,wave_number_max=1,waves=200", 5);
   const ControlLimits limits{.current_max = 2.25};
   const std::vector<MountedDamper> dampers{
       {.model = spencer_model(), .driver = {.current_max = 2.25}, .current = 0.9}};
@@ -200,7 +202,7 @@ TEST_CASE("a stated tolerance is kept where hysteresis is stiff, and without sho
                                                            .absolute_tolerance = 1e-3 * tolerance,
                                                            .limits = limits});
     CHECK_CLOSE(apart(truth, trace.record), 0, 0, tolerance);
-    CHECK(trace.steps < 25000);  // of 40 us in the mean
+    CHECK(trace.steps < 4000);  // of 250 us at least in the mean; z settles in 20 us
   }
 }
 

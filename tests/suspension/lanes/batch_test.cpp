@@ -128,6 +128,29 @@ TEST_CASE("lanes ride as simulate() does: networks, laws, lags, stops, tyres tha
   }
 }
 
+TEST_CASE("control laws of two states command in lanes what they command of simulate()") {
+  for (const char* law : {"add", "groundhook", "mix1,crossover=2.5Hz", "sh_add", "skyhook"}) {
+    CAPTURE(law);
+    Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), nullptr, 3);
+    const ControlLimits own{.damping_min = 800, .damping_max = 3000};  // of the law, not the way
+    fleet.controller = make_controller(law, {own, fleet.plants[0]});
+    for (BatchVehicle& vehicle : fleet.vehicles)
+      vehicle.setting.controller = fleet.controller.get();
+    const BatchOptions options{.duration = 1, .relative_tolerance = 1e-8, .traces = true};
+    const BatchVehicle& last = fleet.vehicles[2];
+    const Record lanes = simulate_batch(fleet.vehicles, options)[2].trace;
+    const Trace trace =
+        simulate(last.setting, {.duration = 1, .relative_tolerance = 1e-8, .limits = last.limits});
+    CHECK(apart(lanes, trace.record, "suspension_current") < 1e-12);
+    CHECK(apart(lanes, trace.record, "body") < 1e-6);
+
+    // Both states were commanded.
+    const std::vector<double>& current = lanes.channel("suspension_current").samples;
+    CHECK(*std::ranges::min_element(current) < *std::ranges::max_element(current));
+    CHECK(*std::ranges::min_element(current) > 0.1);
+  }
+}
+
 TEST_CASE("a network of velocity keeps the tolerance in lanes, in single precision, too") {
   // By a series in time; the same in double precision at 1e-10 is what it is compared with.
   for (const std::size_t neurons : {7, 10})
@@ -151,6 +174,44 @@ TEST_CASE("a network of velocity keeps the tolerance in lanes, in single precisi
       CHECK(!coarse.missed_tolerance);
       CHECK(coarse.evaluations < fine.evaluations);
     }
+}
+
+TEST_CASE("stiff hysteresis loops of any shape keep the tolerance in lanes, in few steps") {
+  // gamma, beta, n: sharp and blunt knees, loops that leave a saturation faster or slower.
+  const double shapes[][3] = {{3.63e6, 3.63e6, 2}, {7e6, 1e6, 2},     {7e6, 0, 2},
+                              {1e6, 6e6, 2},       {5e4, 5e4, 1},     {3e5, 2e5, 1.5},
+                              {5e8, 5e8, 3},       {8e6, -0.5e6, 2.0}};
+  for (const auto& [gamma, beta, n] : shapes) {
+    CAPTURE(gamma);
+    CAPTURE(beta);
+    CAPTURE(n);
+    const Fleet fleets[] = {
+        {law_damper("modified_bouc_wen", {84000, 2000, 30000, 4690, 500, 0, gamma, beta, 301, n, 0},
+                    150),
+         "mix1", 3},
+        {law_damper("bouc_wen", {88000, 1500, 2500, 0, gamma, beta, 301, n, 0}), nullptr, 3}};
+    for (const Fleet& fleet : fleets) {
+      const auto ride = [&](double tolerance) {
+        return simulate_batch(fleet.vehicles, {.duration = 2,
+                                               .relative_tolerance = tolerance,
+                                               .absolute_tolerance = 1e-3 * tolerance,
+                                               .traces = true})
+            .back();
+      };
+      const BatchResult coarse = ride(1e-6), fine = ride(1e-9);
+      const BatchVehicle& last = fleet.vehicles.back();
+      const Trace trace = simulate(last.setting, {.duration = 2,
+                                                  .relative_tolerance = 1e-8,
+                                                  .absolute_tolerance = 1e-11,
+                                                  .limits = last.limits});
+      for (const char* channel : {"body", "wheel", "body_velocity", "wheel_velocity"}) {
+        CHECK(apart(coarse.trace, fine.trace, channel) < 2e-6);
+        CHECK(apart(fine.trace, trace.record, channel) < 1e-6);
+      }
+      CHECK(!coarse.missed_tolerance);
+      CHECK(coarse.evaluations < 2 * 2000);
+    }
+  }
 }
 
 TEST_CASE("measures in lanes are those of the trace by simulate()") {

@@ -51,6 +51,10 @@ class DamperState {
               std::span<double> rates) const noexcept {
     return damper_->at_strut(damper_->model->flow(damper_->at_damper(input), state, rates));
   }
+  /// The damper's own speed at this motion of the strut, m/s.
+  double speed(const DamperInput& input) const noexcept {
+    return damper_->at_damper(input).velocity;
+  }
   const DamperModel& model() const noexcept { return *damper_->model; }
   std::span<const double> model_state() const noexcept { return state_; }
   void put_model_state(const double* state) noexcept {

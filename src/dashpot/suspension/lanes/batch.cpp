@@ -63,6 +63,8 @@ class LaneBatch {
     ride_.law = shape.law;
     ride_.lags = shape.lags;
     ride_.resists_more = shape.resists_more;
+    ride_.control_law = shape.control;
+    ride_.moderate = shape.moderate;
     ride_.network = &shape.network;
     ride_.sample_time = shape.sample_time;
     ride_.relative_tolerance = options.relative_tolerance;
@@ -78,12 +80,13 @@ class LaneBatch {
     for (const BatchVehicle* vehicle : vehicles_) lanes.push_back(lane_vehicle(*vehicle));
     Rows numbers(lanes_, as_numbers(lanes[0].numbers).size()),
         damper(lanes_, lanes[0].damper.size()), start(lanes_, lanes[0].start.size()),
-        sums(lanes_, kLaneResults),
+        control(lanes_, lanes[0].control.size()), sums(lanes_, kLaneResults),
         trace(lanes_, options_.traces ? (ride_.samples + 1) * kLaneTraces : 0);
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
       numbers.set(lane, as_numbers(lanes[lane].numbers));
       damper.set(lane, lanes[lane].damper);
       start.set(lane, lanes[lane].start);
+      control.set(lane, lanes[lane].control);
     }
 
     // The ride asks the pilot for road and commands, and writes sums and traces.
@@ -93,6 +96,7 @@ class LaneBatch {
     ride_.numbers = numbers.data();
     ride_.damper = damper.data();
     ride_.start = start.data();
+    ride_.control_numbers = lanes[0].control.empty() ? nullptr : control.data();
     static_assert(sizeof(Biquad) == 5 * sizeof(double), "b0, b1, b2, a1, a2 without gaps");
     assert(weighting.size() == kWeightingSections);
     ride_.weighting = &weighting[0].b0;

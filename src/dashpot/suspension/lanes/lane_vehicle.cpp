@@ -1,9 +1,12 @@
 #include "dashpot/suspension/lanes/lane_vehicle.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 #include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
@@ -32,7 +35,21 @@ void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
   }
 }
 
-void set_network(const NetworkModel& model, LaneVehicle& lane) {
+/// Whether no neuron of the first layer exceeds kMostAtRest at any of the driver's currents.
+bool is_moderate(const Mlp& mlp, const LaneNetwork& shape, const DriverOptions& driver) {
+  const double current = std::max(std::abs(driver.current_min), std::abs(driver.current_max));
+  const std::size_t inputs = mlp.layers[0], neurons = mlp.layers[1];
+  for (std::size_t n = 0; n < neurons; ++n) {
+    double sum = std::abs(mlp.parameters[inputs * neurons + n]);
+    for (std::size_t i = 0; i < inputs; ++i)
+      if (shape.inputs[i] == LaneInput::Current)
+        sum += current * std::abs(mlp.parameters[n * inputs + i]);
+    if (!(sum <= kMostAtRest)) return false;
+  }
+  return true;
+}
+
+void set_network(const NetworkModel& model, const DriverOptions& driver, LaneVehicle& lane) {
   const Mlp mlp = on_raw_inputs(model.members()[0]);
   LaneNetwork& shape = lane.shape.network;
   shape.count = mlp.layers.size() - 1;
@@ -42,6 +59,7 @@ void set_network(const NetworkModel& model, LaneVehicle& lane) {
                                                           : LaneInput::Current;
   for (std::size_t l = 0; l < shape.count; ++l)
     shape.layers[l] = {mlp.layers[l], mlp.layers[l + 1], mlp.activation(l + 1)};
+  lane.shape.moderate = is_moderate(mlp, shape, driver);
   lane.damper = mlp.parameters;
   lane.damper.push_back(mlp.output_scale);
   lane.damper.push_back(mlp.output_mean + model.offset());
@@ -57,6 +75,55 @@ void set_law(const LawModel& model, LaneVehicle& lane) {
     for (std::size_t power = 0; power < model.parameters().coefficients[k].size(); ++power)
       lane.damper[power * count + k] = model.parameters().coefficients[k][power];
   lane.numbers.model_lag = model.lag_rate();
+}
+
+/// The place of the vehicle's control law in kLaneControls, where it sees the true signals and its
+/// demand leads straight to a current; else kNoLaneControl.
+std::size_t control_law_of(const BatchVehicle& vehicle, const ControlDescription& description) {
+  const MountedDamper& damper = vehicle.setting.dampers[0];
+  if (vehicle.sensors.in_car || damper.inverse || damper.loop.is_closed()) return kNoLaneControl;
+  return static_cast<std::size_t>(std::ranges::find(kLaneControls, description.law) -
+                                  std::begin(kLaneControls));
+}
+
+/// The least and the greatest damping that a law of two states demands, found by asking for all
+/// signs of its signals at slow and at quick motions.
+std::array<double, 2> demands_of(const Controller& controller) {
+  std::array<double, 2> range{INFINITY, -INFINITY};
+  for (const double v : {-1.0, 0.0, 1.0})
+    for (const double a : {-1e9, 0.0, 1e9})
+      for (const double wheel : {-1.0, 1.0})
+        for (const double d : {-1.0, 1.0}) {
+          const StrutSignals signals{.body_velocity = v,
+                                     .body_acceleration = a,
+                                     .wheel_velocity = wheel,
+                                     .deflection_velocity = d};
+          DamperDemand demand;
+          controller.step({&signals, 1}, {}, {}, {&demand, 1});
+          range = {std::min(range[0], demand.value), std::max(range[1], demand.value)};
+        }
+  return range;
+}
+
+void set_control(const BatchVehicle& vehicle, LaneVehicle& lane) {
+  if (!vehicle.setting.controller) return;
+  lane.shape.controlled = true;
+  const ControlDescription description = vehicle.setting.controller->description();
+  lane.shape.control = control_law_of(vehicle, description);
+  if (lane.shape.control == kNoLaneControl) return;
+
+  // The currents that its two demands lead to.
+  const MountedDamper& damper = vehicle.setting.dampers[0];
+  CommandPath path(damper, vehicle.limits, 0);
+  const auto current = [&](double damping) {
+    return std::clamp(path.command({DamperDemand::Kind::Damping, damping}, {}, 0),
+                      damper.driver.current_min, damper.driver.current_max);
+  };
+  const auto [soft, hard] = demands_of(*vehicle.setting.controller);
+  lane.control.assign(kLaneControlNumbers, 0);
+  if (!description.parameters.empty()) lane.control[kControlParameter] = description.parameters[0];
+  lane.control[kSoftCurrent] = current(soft);
+  lane.control[kHardCurrent] = current(hard);
 }
 
 /// Command, the currents in coil and model, the law's states: after a long rest.
@@ -90,7 +157,7 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
 
   // The damper.
   if (const auto* network = model_as<NetworkModel>(*damper.model))
-    set_network(*network, lane);
+    set_network(*network, damper.driver, lane);
   else
     set_law(*model_as<LawModel>(*damper.model), lane);
 
@@ -99,7 +166,7 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   lane.shape.lags = (lane.numbers.driver_lag > 0) + (lane.numbers.model_lag > 0);
   lane.shape.resists_more = plant.tyres_may_lift || strut.friction > 0 ||
                             strut.extension_stop > 0 || strut.compression_stop > 0;
-  lane.shape.controlled = vehicle.setting.controller != nullptr;
+  set_control(vehicle, lane);
   lane.shape.sample_time = sample_time_of(vehicle);
   lane.start = start_of(damper, lane);
   return lane;

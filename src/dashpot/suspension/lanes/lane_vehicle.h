@@ -14,8 +14,10 @@ struct LaneShape {
   std::size_t law = 0;        ///< of a law: its place in kLaneLaws
   std::size_t lags = 0;       ///< currents behind a lag: 0, 1 or 2
   bool resists_more = false;  ///< stops, friction or a tyre that may lift
+  bool moderate = false;      ///< as LaneRide's
   bool controlled = false;
-  double sample_time = 0;  ///< s
+  std::size_t control = kNoLaneControl;  ///< of a law that has lanes: its place in kLaneControls
+  double sample_time = 0;                ///< s
   bool operator==(const LaneShape&) const = default;
 };
 
@@ -23,7 +25,7 @@ struct LaneShape {
 struct LaneVehicle {
   LaneShape shape;
   QuarterCarNumbers<double> numbers;
-  std::vector<double> damper, start;  ///< as LaneRide's
+  std::vector<double> damper, start, control;  ///< as LaneRide's
 };
 
 /// The vehicle must have no reason_against_lanes().

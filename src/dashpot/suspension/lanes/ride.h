@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
 
 #include "dashpot/damper/nets/kernel.h"
@@ -24,6 +25,10 @@ struct QuarterCarNumbers {
   Number friction_slope;         ///< s/m, 1 / v_s: over this speed friction sets in
   Number driver_lag, model_lag;  ///< 1/s; 0: none
 };
+
+/// The greatest sum of a neuron's bias and current, whatever its sign, with which a network's exp
+/// may be split into that of the current and that of the velocity.
+constexpr int kMostAtRest = 30;
 
 enum class LaneDamperKind { Network, Law };
 enum class LaneInput : std::uint8_t { Displacement, Velocity, Current };
@@ -53,6 +58,7 @@ struct LaneRide {
   std::size_t law = 0;   ///< its place in kLaneLaws
   std::size_t lags = 0;  ///< of driver and model, on the way to the current that drives the damper
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
+  bool moderate = false;      ///< no neuron of the first layer exceeds kMostAtRest at rest
   double relative_tolerance = 0, absolute_tolerance = 0;
   double sample_time = 0;           ///< s
   std::size_t samples = 0;          ///< after the one at rest
@@ -70,6 +76,10 @@ struct LaneRide {
   /// Height and rate under a lane at kLaneNodes half samples from number `first` on, into rows.
   void (*ground)(void* pilot, std::size_t lane, std::size_t first, double* heights,
                  double* rates) = nullptr;
+  /// Rows of LaneControlNumber, for a control law by its place in kLaneControls; null: `control` is
+  /// asked.
+  std::size_t control_law = 0;
+  const double* control_numbers = nullptr;
   /// LaneSignal rows in, commands within the driver's limits out, for the lanes whose `which` is
   /// not 0. Null: the commands stay.
   void (*control)(void* pilot, const double* signals, double* commands,
@@ -97,6 +107,13 @@ enum LaneSignal : std::size_t {
   kWheel,
   kGround,
   kLaneSignals
+};
+/// What a control law in lanes knows of its vehicle.
+enum LaneControlNumber : std::size_t {
+  kControlParameter,
+  kSoftCurrent,  ///< A, commanded where the law wants the least damping, and where the most
+  kHardCurrent,
+  kLaneControlNumbers
 };
 /// Sums over the samples that count, but for the last four.
 enum LaneResult : std::size_t {
@@ -144,5 +161,11 @@ const RideKernel& ride_kernel(std::size_t vehicles);
 /// Names of the laws that have lanes, in alphabetical order. LaneRide::law is a place in this
 /// table; simd/laws.h holds their code in the same order.
 inline constexpr std::string_view kLaneLaws[] = {"bingham", "bouc_wen", "modified_bouc_wen"};
+
+/// Names of the control laws that have lanes, in alphabetical order: LaneRide::control_law is a
+/// place in this table; simd/controls.h holds their code in the same order.
+inline constexpr std::string_view kLaneControls[] = {"add", "groundhook", "mix1", "sh_add",
+                                                     "skyhook"};
+constexpr std::size_t kNoLaneControl = std::size(kLaneControls);
 
 }  // namespace dashpot

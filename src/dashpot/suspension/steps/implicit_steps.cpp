@@ -156,12 +156,10 @@ class ImplicitSteps final : public StepMethod {
   }
 
   double distance() const {
+    const StepEnds ends{equations_.coordinates(), y_, trial_};
     return error_in_tolerances(
-        {equations_.coordinates(),
-         {y_.data(), equations_.size()},
-         {trial_.data(), equations_.size()}},
-        options_, [&](std::size_t k) { return std::abs(u_[kImplicitStages - 1][k]); },
-        [](std::size_t) { return 0.0; });
+        ends, options_, [&](std::size_t k) { return std::abs(u_[kImplicitStages - 1][k]); },
+        [&](std::size_t k) { return ends.size(k); });
   }
 
   PlantEquations equations_;

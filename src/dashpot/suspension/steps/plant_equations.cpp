@@ -13,8 +13,23 @@ PlantEquations::PlantEquations(const PlantForces& forces, const PlantState& star
       currents_(start.dampers.size()),
       damper_forces_(start.dampers.size()),
       strut_forces_(start.dampers.size()),
+      speeds_(start.dampers.size()),
       steady_(start.dampers.size()) {
   for (const DamperState& damper : start.dampers) size_ += damper.model_state().size();
+  states_.resize(size_ - start.x.size());
+}
+
+void PlantEquations::follow_loops(const PlantState& start, const IntegratorOptions& options) {
+  std::size_t first = start.x.size();
+  for (std::size_t s = 0; s < start.dampers.size(); ++s) {
+    if (const auto loop = loop_of(start.dampers[s].model())) {
+      const double tolerance =
+          options.absolute_tolerance + options.relative_tolerance * loop->shape.z_max;
+      loops_.push_back({{loop->shape, tolerance, false}, s, first + loop->state, {}});
+      if (loop->in_series) loops_.back().series = first;
+    }
+    first += start.dampers[s].model_state().size();
+  }
 }
 
 void PlantEquations::read(const PlantState& state, double* y) {
@@ -26,14 +41,31 @@ void PlantEquations::read(const PlantState& state, double* y) {
     currents_[s] = state.dampers[s].current();
     steady_[s] = state.dampers[s].is_steady();
   }
+
+  // A loop goes on along its branch where z is as it was left.
+  double* first = y - size_;
+  for (FollowedLoop& loop : loops_)
+    first[loop.place] = first[loop.place] == loop.z ? loop.r : loop.path.folded(first[loop.place]);
 }
 
 void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
   const std::size_t n = coordinates_;
   const std::span<const double> x(y, 2 * n);
   const double t = state_->time + after;
-  const double* z = y + 2 * n;
   double* dz = dy + 2 * n;
+
+  // The dampers' states as their laws have them.
+  const double* z = y + 2 * n;
+  if (!loops_.empty()) {
+    std::copy(z, y + size_, states_.begin());
+    z = states_.data();
+  }
+  for (FollowedLoop& loop : loops_) {
+    const auto place = loop.path.place(y[loop.place]);
+    loop.m = place.m;
+    loop.steep = place.steep;
+    states_[loop.place - 2 * n] = loop.path.unfolded(place);
+  }
 
   // Each damper's force, and the rates of its states.
   for (std::size_t s = 0; s < currents_.size(); ++s) {
@@ -43,8 +75,14 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
     const DamperInput motion = forces_.strut_motion(s, t, x, current);
     damper_forces_[s] = damper.flow(motion, {z, count}, {dz, count});
     strut_forces_[s] = damper_forces_[s] + forces_.strut_extra(s, motion);
+    speeds_[s] = damper.speed(motion);
     z += count;
     dz += count;
+  }
+  for (FollowedLoop& loop : loops_) {
+    const double travel = speeds_[loop.damper] - (loop.series ? dy[*loop.series] : 0);
+    loop.along = loop.path.along(travel);
+    dy[loop.place] = loop.path.folded_rate(dy[loop.place], loop.along, {loop.m, loop.steep});
   }
 
   // The motion under these forces.
@@ -58,9 +96,13 @@ void PlantEquations::write_forces(const double* dy, PlantState& state) const {
   std::copy_n(dy + coordinates_, coordinates_, state.acceleration.begin());
 }
 
-void PlantEquations::write(const double* y, const double* dy, double end, PlantState& state) const {
+void PlantEquations::write(const double* y, const double* dy, double end, PlantState& state) {
   std::copy_n(y, state.x.size(), state.x.begin());
-  y += state.x.size();
+  for (FollowedLoop& loop : loops_) {
+    loop.r = y[loop.place];
+    loop.z = states_[loop.place - state.x.size()];
+  }
+  y = loops_.empty() ? y + state.x.size() : states_.data();
   for (DamperState& damper : state.dampers) {
     damper.put_model_state(y);
     y += damper.model_state().size();

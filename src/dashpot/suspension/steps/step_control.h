@@ -29,14 +29,15 @@ class Allowance {
 struct StepEnds {
   std::size_t coordinates;
   std::span<const double> from, to;
+  double size(std::size_t k) const { return std::max(std::abs(from[k]), std::abs(to[k])); }
 };
 
-/// The error of a step, in tolerances; error(k): of component k; moved(k): how far a state moves in
-/// the step. Displacements are measured against the greatest of them, and so are speeds; a damper's
-/// states each against its own size and how far it moves.
-template <class Error, class Moved>
+/// The error of a step, in tolerances; error(k): of component k; size_of(k): what that of a
+/// damper's state is measured against. Displacements are measured against the greatest of them, and
+/// so are speeds.
+template <class Error, class Size>
 double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& options, Error error,
-                           Moved moved) {
+                           Size size_of) {
   const auto worse = [](double a, double b) { return b > a || std::isnan(b) ? b : a; };
   const auto of = [&](double off, double size) {
     return off / (options.absolute_tolerance + options.relative_tolerance * size);
@@ -56,8 +57,7 @@ double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& option
 
   // States of the dampers.
   for (std::size_t k = 2 * n; k < ends.from.size(); ++k)
-    greatest = worse(
-        greatest, of(error(k), std::max(std::abs(ends.from[k]), std::abs(ends.to[k])) + moved(k)));
+    greatest = worse(greatest, of(error(k), size_of(k)));
   return greatest;
 }
 

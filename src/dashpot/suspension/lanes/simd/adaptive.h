@@ -27,13 +27,20 @@ class AdaptiveSteps {
   struct Slope {
     Lane d[kSize];  ///< heights (0, 1), speeds (2, 3), damper (from 4), currents (from 4 + kStates)
     Lane force;     ///< N
+    Lane along;     ///< m/s, along the branch of the loop, and
+    Lane steep;     ///< how steep its r is there (LoopPath)
   };
+  using Loop = typename Damper::Loop;
   static_assert(kLags <= 2, "driver and model");
 
  public:
   AdaptiveSteps(const LaneRide& ride, Car& car)
       : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
+  /// Before all else: a loop's state as the steps have it.
+  void begin(State& state) {
+    if constexpr (Loop::kExists) looped(state.z) = car_.damper.loop.folded(looped(state.z));
+  }
   /// Forces at the start of a sample, after the command has changed in some lanes.
   [[gnu::noinline, gnu::flatten]] void refresh(const State& state, Lane command, LaneMask changed,
                                                Lane road) {
@@ -53,9 +60,14 @@ class AdaptiveSteps {
     State end;
     Slope ending;
     const Lane error = attempt(state, h, command, road, done_ / whole, end, ending);
+    LaneMask accepted = riding & ((error <= 1) | (h <= least) | (error != error));
+    typename Loop::Met met;
+    if constexpr (Loop::kExists) {
+      met = car_.damper.loop.meet(speeds_, h, kNearTurn * whole);
+      accepted &= ~met.over;
+    }
 
     // Where it is accepted, its end becomes the state. A NaN is accepted: the run finds it.
-    const LaneMask accepted = riding & ((error <= 1) | (h <= least) | (error != error));
     missed |= accepted & !(error <= 1);
     take(state, end, accepted);
     keep(ending, accepted);
@@ -66,6 +78,8 @@ class AdaptiveSteps {
     const Lane proposed = fmin(fmax(h * factor, least), whole);
     next_ = riding ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
     done_ = accepted ? (last ? Lane{} : done_ + h) : done_;
+    if constexpr (Loop::kExists)
+      take_turns(met, state, command, road, accepted, accepted & last, riding);
 
     // With one lag the coil's current is either the driving one or, where the driver has no lag,
     // the command.
@@ -95,10 +109,24 @@ class AdaptiveSteps {
       out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
     }
 
+    // The damper's states as its law has them.
+    Lane z[kStates + 1];
+    for (std::size_t k = 0; k < kStates; ++k) z[k] = s.z[k];
+    [[maybe_unused]] typename Loop::Place place;
+    if constexpr (Loop::kExists) {
+      place = car_.damper.loop.place(looped(s.z));
+      looped(z) = car_.damper.loop.unfolded(place);
+    }
+
     // Forces, and what they make of the motion.
-    out.force = car_.damper_force(x, s.z);
+    out.force = car_.damper_force(x, z);
     const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_at_wheel(x, road);
-    car_.damper.derivative(x[0] - x[1], x[2] - x[3], s.z, out.d + 4);
+    car_.damper.derivative(x[0] - x[1], x[2] - x[3], z, out.d + 4);
+    if constexpr (Loop::kExists) {
+      out.along = car_.damper.loop.along(Damper::LoopOfLaw::travel(x[2] - x[3], out.d + 4));
+      out.steep = place.steep;
+      looped(out.d + 4) = car_.damper.loop.folded_rate(looped(out.d + 4), out.along, place);
+    }
     out.d[0] = x[2];
     out.d[1] = x[3];
     out.d[2] = car_.acceleration(0, x, force, pushed);
@@ -108,6 +136,30 @@ class AdaptiveSteps {
   void keep(const Slope& fresh, LaneMask which) {
     for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = which ? fresh.d[k] : first_.d[k];
     first_.force = which ? fresh.force : first_.force;
+    if constexpr (Loop::kExists) {
+      first_.along = which ? fresh.along : first_.along;
+      first_.steep = which ? fresh.steep : first_.steep;
+    }
+  }
+  /// The state of the damper's loop among its states.
+  template <class Number>
+  static Number& looped(Number* z) {
+    return z[Damper::LoopOfLaw::kState];
+  }
+
+  /// On to other branches, and lengths of steps that go by turns.
+  void take_turns(const typename Loop::Met& met, State& state, Lane command, const RoadPush& road,
+                  LaneMask accepted, LaneMask arrived, LaneMask riding) {
+    auto& loop = car_.damper.loop;
+    const LaneMask changed = loop.go_on(met, first_.along, accepted, looped(state.z));
+    const double whole = ride_.sample_time;
+    next_ = (riding & met.over & ~met.stuck) ? fmax(met.until, kNearTurn * whole) : next_;
+    next_ = (accepted & met.turned) ? fmax(next_, kAfterTurn * whole) : next_;
+    const Lane place = arrived ? all(1) : done_ / whole;
+    if (any(changed)) keep(slope_again(state, command, road.at(place)), changed);
+  }
+  [[gnu::noinline, gnu::flatten]] Slope slope_again(const State& state, Lane command, Lane road) {
+    return slope(state, command, road);
   }
   /// to = change(from, its place in Slope::d), number by number.
   template <class Change>
@@ -178,19 +230,23 @@ class AdaptiveSteps {
     // Stage 7 is the end of the step, and its slope the first one of the next step.
     move<6>(from, h, end, k1, k2, k3, k4, k5, k6);
     k7 = slope(end, command, road_of(6));
+    if constexpr (Loop::kExists) {
+      static_assert(DormandPrince::kAt[2] == Loop::kEarly && DormandPrince::kAt[3] == Loop::kLate);
+      speeds_ = {k1.along, k3.along, k4.along, k7.along};
+    }
 
     // The error: what the embedded solution of order 4 differs by.
     State off;
     each_of(from, off, [&](Lane, std::size_t n) {
       return h * weighted(DormandPrince::kError, n, k1, k2, k3, k4, k5, k6, k7);
     });
-    return distance(from, end, off, k1, h);
+    return distance(from, end, off, k7, h);
   }
 
   /// The error in tolerances. A damper's state, which may pass through 0 while it moves fast, is
   /// measured against its size and how far it moves in the step. Currents are
   /// not measured.
-  Lane distance(const State& from, const State& end, const State& off, const Slope& k1,
+  Lane distance(const State& from, const State& end, const State& off, const Slope& k7,
                 Lane h) const {
     const double absolute = ride_.absolute_tolerance, relative = ride_.relative_tolerance;
     const auto of = [&](Lane error, Lane size) { return error / (absolute + relative * size); };
@@ -200,16 +256,28 @@ class AdaptiveSteps {
       return of(fmax(fabs(off.x[k]), fabs(off.x[k + 1])), size);
     };
     Lane greatest = fmax(pair(0), pair(2));
-    for (std::size_t k = 0; k < kStates; ++k)
-      greatest = fmax(of(fabs(off.z[k]), fabs(from.z[k]) + fabs(h * k1.d[4 + k])), greatest);
+    for (std::size_t k = 0; k < kStates; ++k) {
+      Lane error = fabs(off.z[k]), size = fabs(from.z[k]) + fabs(h * first_.d[4 + k]);
+      if constexpr (Loop::kExists)
+        if (k == Damper::LoopOfLaw::kState) {
+          error = car_.damper.loop.error(error, first_.steep, k7.steep);
+          size = car_.damper.loop.size(size);
+        }
+      greatest = fmax(of(error, size), greatest);
+    }
     return greatest;
   }
 
+  /// Of a sample: the shortest step to a turn of a loop, and the first one after it.
+
+  static constexpr double kNearTurn = 1.0 / 65536, kAfterTurn = 0.2;
+
   const LaneRide& ride_;
   Car& car_;
-  Lane next_;      ///< s, the length to try next
-  Lane done_{};    ///< s of the present sample
-  Slope first_{};  ///< at the present state
+  typename Loop::Speeds speeds_;  ///< of the last try
+  Lane next_;                     ///< s, the length to try next
+  Lane done_{};                   ///< s of the present sample
+  Slope first_{};                 ///< at the present state
 };
 
 }  // namespace

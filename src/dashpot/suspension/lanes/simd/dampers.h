@@ -9,6 +9,16 @@ namespace {
 //   set_current(i)            i A, from now on
 //   force(x, v, z)            N, x m and v m/s of the damper, extension positive
 //   derivative(x, v, z, dz)   z' of its states
+//   Loop, loop                its hysteresis loop, a LoopPath, if it has one
+
+/// For dampers without a hysteresis loop.
+struct NoLoop {
+  static constexpr bool kExists = false;
+  using Loop = NoLoop;
+  struct Met {};
+  struct Place {};
+  struct Speeds {};
+};
 
 /// A static network, one set of weights per lane, in the order of Mlp::parameters with scale and
 /// mean of the output behind them. The current's part of the first layer is added up once for all
@@ -16,6 +26,7 @@ namespace {
 class NetworkLanes {
  public:
   static constexpr std::size_t kStates = 0;
+  using Loop = NoLoop;
   explicit NetworkLanes(const LaneRide& ride) : shape_(*ride.network), weights_(ride.damper) {
     const std::size_t inputs = shape_.layers[0].inputs;
     for (std::size_t i = 0; i < inputs; ++i) {
@@ -132,14 +143,15 @@ class NetworkLanes {
   Lane all_ones_{};         ///< what the last of two layers sums up where all neurons give 1
 };
 
-/// A law whose text is compiled for lanes (laws.h): P, its struct of parameters, a Lane each, and
-/// its functions. A parameter may follow the current as a polynomial; those that do are kept in a
-/// list.
-template <class P, auto Force, auto Derivative, std::size_t kCount>
+/// A law whose text is compiled for lanes (laws.h): P, its struct of parameters, a Lane each, its
+/// functions, and its hysteresis loop, which LawLoop knows (BoucWenLoop). A parameter may follow
+/// the current as a polynomial; those that do are kept in a list.
+template <class P, auto Force, auto Derivative, std::size_t kCount, class LawLoop = NoLoop>
 class LawLanes {
  public:
   static constexpr std::size_t kStates = kCount;
   explicit LawLanes(const LaneRide& ride) : by_power_(ride.damper) {
+    LaneMask loop_varies{};
     for (std::size_t k = 0; k < kParameters; ++k) {
       LaneMask varies{};
       for (std::size_t power = 1; power < kLanePowers; ++power)
@@ -148,6 +160,14 @@ class LawLanes {
       const Lane value = load(by_power_ + k * kWidth);
       __builtin_memcpy(reinterpret_cast<char*>(&law_) + k * sizeof value, &value, sizeof value);
       if (any(varies)) varying_[count_++] = k;
+      if constexpr (LawLoop::kExists)
+        for (const std::size_t place : LawLoop::kShape)
+          if (place == k) loop_varies |= varies;
+    }
+    if constexpr (LawLoop::kExists) {
+      const auto shape = LawLoop::shape(law_);
+      loop =
+          Loop(shape, ride.absolute_tolerance + ride.relative_tolerance * shape.z_max, loop_varies);
     }
   }
 
@@ -167,6 +187,10 @@ class LawLanes {
     if constexpr (kStates > 0) Derivative(&law_, x, v, z, dz);
   }
   Lane force(Lane x, Lane v, const Lane* z) const { return Force(&law_, x, v, z); }
+
+  using Loop = typename LawLoop::Loop;
+  using LoopOfLaw = LawLoop;
+  Loop loop;
 
  private:
   static constexpr std::size_t kParameters = sizeof(P) / sizeof(Lane);

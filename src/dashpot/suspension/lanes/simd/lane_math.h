@@ -69,8 +69,11 @@ inline Lane atan(Lane x) {
 }
 /// Most powers are the first or the second.
 inline Lane pow(Lane base, Lane power) {
-  if (!any(power != 1)) return base;
-  for (std::size_t k = 0; k < kWidth; ++k) base[k] = __builtin_pow(base[k], power[k]);
+  const LaneMask other = (power != 1) & (power != 2);
+  const Lane quick = power == 2 ? base * base : base;
+  if (!any(other)) return quick;
+  for (std::size_t k = 0; k < kWidth; ++k)
+    base[k] = other[k] ? __builtin_pow(base[k], power[k]) : quick[k];
   return base;
 }
 
@@ -100,14 +103,16 @@ inline Lanes<float> power_of_two(Lanes<float> r) {
   return ((0.001339086336F * square + 0.05550357114F) * square + 0.693147188F) * r + even;
 }
 
-/// exp(2x) for |x| <= kTanhOne, relative error at most 3e-14, of floats their last digit.
-template <class Real>
+/// exp(2x) for |x| <= kFarthest, relative error at most 3e-14 + 2e-16 |x|, of floats their last
+/// digits; beyond, that of kFarthest.
+template <class Real, int kFarthest = static_cast<int>(Arithmetic<Real>::kTanhOne)>
 [[gnu::always_inline]] inline Lanes<Real> exp_of_twice(Lanes<Real> x) {
   using A = Arithmetic<Real>;
   using V = Lanes<Real>;
   constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472),
                  kRound = A::kRound + A::kBias;
-  const V y = larger(V{} - A::kTanhOne, smaller(V{} + A::kTanhOne, x));  // a NaN passes
+  constexpr Real kMost = kFarthest;
+  const V y = larger(V{} - kMost, smaller(V{} + kMost, x));  // a NaN passes
   const V shifted = y * kTwoLog2E + kRound;
   const auto bits = __builtin_bit_cast(typename LaneTypes<Real>::Integers, shifted) << A::kMantissa;
   return power_of_two(y * kTwoLog2E - (shifted - kRound)) * __builtin_bit_cast(V, bits);

@@ -36,7 +36,7 @@ bool has_series(const LaneRide& ride) {
     by_displacement = by_displacement || network.inputs[i] == LaneInput::Displacement;
   }
 
-  return by_velocity && !by_displacement && ride.lags == 0 && !ride.resists_more &&
+  return ride.moderate && by_velocity && !by_displacement && ride.lags == 0 && !ride.resists_more &&
          network.count == 2 && network.layers[0].activation == Activation::Tanh &&
          network.layers[1].activation == Activation::Identity;
 }

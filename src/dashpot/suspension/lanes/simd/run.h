@@ -1,4 +1,5 @@
 #pragma once
+#include "dashpot/suspension/lanes/simd/controls.h"
 #include "dashpot/suspension/lanes/simd/quarter_car.h"
 #include "dashpot/suspension/lanes/simd/tally.h"
 
@@ -23,6 +24,7 @@ class LaneRun {
   void run() {
     // All lanes at their first sample.
     LaneMask riding = all(0) == 0;
+    steps_.begin(state_);
     meet_ground(riding);
     steps_.refresh(state_, command_, riding, road_.node[0]);
     take_sample(riding);
@@ -46,7 +48,10 @@ class LaneRun {
  private:
   /// At a sample the controller acts first, and what is recorded shows the forces after that.
   void take_sample(LaneMask which) {
-    if (ride_.control) control(which);
+    if (ride_.control_numbers)
+      follow(demanded(which));
+    else if (ride_.control)
+      follow(asked(which));
     record(which);
   }
 
@@ -83,8 +88,20 @@ class LaneRun {
     return lanes;
   }
 
-  /// Asks the controllers of these lanes for commands.
-  void control(LaneMask which) {
+  /// Commands of a control law that has lanes.
+  Lane demanded(LaneMask which) const {
+    const Lane* x = state_.x;
+    const auto number = [&](LaneControlNumber row) {
+      return load(ride_.control_numbers + row * kWidth);
+    };
+    const Lane demand = lane_controls::demand_of(ride_.control_law, number(kControlParameter),
+                                                 {number(kSoftCurrent), number(kHardCurrent)},
+                                                 {x[2], steps_.acceleration(0), x[3], x[2] - x[3]});
+    return which ? demand : command_;
+  }
+
+  /// Commands of the controllers of these lanes, one by one.
+  Lane asked(LaneMask which) {
     const Lane* x = state_.x;
     Lane signals[kLaneSignals];
     signals[kBodyVelocity] = x[2];
@@ -98,12 +115,17 @@ class LaneRun {
     signals[kWheel] = x[1];
     signals[kGround] = height_;
 
-    const Lane before = command_;
+    Lane commands = command_;
     ride_.control(ride_.pilot, reinterpret_cast<const double*>(signals),
-                  reinterpret_cast<double*>(&command_),
+                  reinterpret_cast<double*>(&commands),
                   reinterpret_cast<const std::int64_t*>(&which));
-    const LaneMask changed = command_ != before;
+    return commands;
+  }
+
+  void follow(Lane commands) {
+    const LaneMask changed = commands != command_;
     if (!any(changed)) return;
+    command_ = commands;
 
     // A coil without a lag follows at once, and forces are others from here on.
     state_.currents.coil =

@@ -17,7 +17,8 @@ namespace {
 ///     t'' / 2 = -t t'                        t'''' / 24 = -t t' (t^2 - 2/3)
 ///                                            t''''' / 120 = t' (t^2 (t^2 - 1) + 2/15)
 ///
-/// so that one exponential and half a division per neuron give all terms. Real: what the neurons
+/// so that one exponential and half a division per neuron give all terms: exp(2 s) is the product
+/// of one that current gives and one that velocity gives. Real: what the neurons
 /// calculate in; of float, a vector holds two neurons of all vehicles.
 template <class Real>
 class TanhNeurons {
@@ -48,31 +49,57 @@ class TanhNeurons {
       for (std::size_t k = 0; k < kTerms; ++k, power *= by_velocity) put(power, to.out[k], place);
     }
 
-    // expand() takes vectors in pairs; neurons of no weight fill the last one.
-    const std::size_t pair = 2 * kTogether;
-    end_ = neurons_ + (layer.outputs + pair - 1) / pair * 2;
+    // Neurons of no weight fill the last vector.
+    end_ = neurons_ + (layer.outputs + kTogether - 1) / kTogether;
     mean_ = load(scale) * load(out + layer.outputs * kWidth) + load(scale + kWidth);
   }
 
+  /// The neurons' exp at two currents, the present one and that before, are kept: a controller of
+  /// two states goes to and fro between them.
   void set_current(Lane current) {
-    const Vector i = spread(current);
-    for (Neurons* n = neurons_; n < end_; ++n) n->at_rest = n->bias + n->by_current * i;
-  }
-  /// f_k around a velocity, N (s/m)^k: all kTerms of them, or the force f_0 alone. Two sums share a
-  /// division, which takes longer than all else.
-  template <std::size_t kCount>
-  void expand(Lane velocity, Lane (&force)[kCount]) const {
-    static_assert(kCount == 1 || kCount == kTerms);
-    Vector sum[kCount]{};
-    const Vector v = spread(velocity);
-    for (const Neurons* n = neurons_; n < end_; n += 2) {
-      const Vector a = 1 + exp_of_twice<Real>(n[0].at_rest + n[0].by_velocity * v),
-                   b = 1 + exp_of_twice<Real>(n[1].at_rest + n[1].by_velocity * v),
-                   less = 2 / (a * b);
-      add(n[0], 1 - less * b, sum);
-      add(n[1], 1 - less * a, sum);
+    const LaneMask before = current == currents_[0], fresh = ~before & (current != currents_[1]);
+    if (any(fresh)) {
+      currents_[0] = fresh ? currents_[1] : currents_[0];
+      currents_[1] = fresh ? current : currents_[1];
+      const Vector i = spread(currents_[1]);
+      const auto moved = spread(fresh ? all(1) : Lane{}) != 0;
+      for (Neurons* n = neurons_; n < end_; ++n) {
+        n->resting[0] = moved ? n->resting[1] : n->resting[0];
+        n->resting[1] = exp_of_twice<Real, kFar>(n->bias + n->by_current * i);
+      }
     }
-    for (std::size_t k = 0; k < kCount; ++k) force[k] = gathered(sum[k]);
+    const auto first = spread(before ? all(1) : Lane{}) != 0;
+    for (Neurons* n = neurons_; n < end_; ++n) n->at_rest = first ? n->resting[0] : n->resting[1];
+  }
+  /// The neurons' exp at a velocity, for what follows.
+  void move_to(Lane velocity) {
+    const Vector v = spread(velocity);
+    for (Neurons* n = neurons_; n < end_; ++n)
+      n->moving = exp_of_twice<Real, kFar>(n->by_velocity * v);
+  }
+  /// Their tanh there at the present current, for what follows. Two share a division, which takes
+  /// longer than all else. Returns the force, N.
+  Lane respond() {
+    Vector sum{};
+    Neurons* n = neurons_;
+    for (; n + 1 < end_; n += 2) {
+      const Vector a = 1 + n[0].exp_of_sum(), b = 1 + n[1].exp_of_sum(), less = 2 / (a * b);
+      n[0].tanh = 1 - less * b;
+      n[1].tanh = 1 - less * a;
+      sum += n[0].out[0] * n[0].tanh;
+      sum += n[1].out[0] * n[1].tanh;
+    }
+    if (n < end_) {
+      n->tanh = 1 - 2 / (1 + n->exp_of_sum());
+      sum += n->out[0] * n->tanh;
+    }
+    return gathered(sum) + mean_;
+  }
+  /// f_k there, N (s/m)^k.
+  void expand(Polynomial& force) const {
+    Vector sum[kTerms]{};
+    for (const Neurons* n = neurons_; n < end_; ++n) add(*n, sum);
+    for (std::size_t k = 0; k < kTerms; ++k) force[k] = gathered(sum[k]);
     force[0] += mean_;
   }
 
@@ -80,11 +107,22 @@ class TanhNeurons {
   using Vector = Lanes<Real>;
   static constexpr std::size_t kTogether = kLanes<Real> / kWidth;  ///< neurons per vector
   static_assert(kTogether == 1 || kTogether == 2, "double or float");
-  static_assert(kMaxWidth % (2 * kTogether) == 0, "the last pair of vectors is within neurons_");
+  static_assert(kMaxWidth % kTogether == 0, "the last vector is within neurons_");
+  /// From there on exp(2 x) stands still: |x| so great that tanh is 1 whatever the current adds, by
+  /// kMostAtRest (LaneShape::moderate).
+  static constexpr int kFar = sizeof(Real) == sizeof(float) ? 40 : 300;
+  static_assert(kFar - kMostAtRest >= Arithmetic<Real>::kTanhOne);
+  static constexpr Real kGreatest = sizeof(Real) == sizeof(float) ? Real(4.8e8) : Real(2.3e17);
   struct Neurons {
     Vector bias{}, by_current{}, by_velocity{};
-    Vector at_rest{};      ///< the sum s at the present current and no velocity
+    Vector resting[2]{};   ///< exp(2 (bias + by_current i)) at the two currents
+    Vector at_rest{};      ///< and at the present one
+    Vector moving{};       ///< exp(2 by_velocity v) at the velocity of move_to()
+    Vector tanh{};         ///< there, after respond()
     Vector out[kTerms]{};  ///< output weight times by_velocity^k
+
+    /// exp(2 s), no more than where tanh s is 1.
+    Vector exp_of_sum() const { return smaller(Vector{} + kGreatest, at_rest * moving); }
   };
 
   static void put(Lane from, Vector& to, std::size_t place) {
@@ -117,22 +155,20 @@ class TanhNeurons {
   }
 
   /// Adds what these neurons give to f_k: out b^k t^(k) / k!; t is their tanh.
-  template <std::size_t kCount>
-  [[gnu::always_inline]] static void add(const Neurons& neurons, Vector t, Vector (&sum)[kCount]) {
+  [[gnu::always_inline]] static void add(const Neurons& neurons, Vector (&sum)[kTerms]) {
     static_assert(kTerms == 6, "one line per derivative of tanh");
     constexpr Real kThird = Real(1) / 3;
     const Vector(&out)[kTerms] = neurons.out;
+    const Vector t = neurons.tanh, square = t * t, slope = 1 - square, bent = t * slope;
     sum[0] += out[0] * t;
-    if constexpr (kCount == kTerms) {
-      const Vector square = t * t, slope = 1 - square, bent = t * slope;
-      sum[1] += out[1] * slope;
-      sum[2] -= out[2] * bent;
-      sum[3] += out[3] * (slope * (square - kThird));
-      sum[4] -= out[4] * (bent * (square - 2 * kThird));
-      sum[5] += out[5] * (slope * (square * (square - 1) + Real(0.4) * kThird));
-    }
+    sum[1] += out[1] * slope;
+    sum[2] -= out[2] * bent;
+    sum[3] += out[3] * (slope * (square - kThird));
+    sum[4] -= out[4] * (bent * (square - 2 * kThird));
+    sum[5] += out[5] * (slope * (Real(0.4) * kThird - square * slope));
   }
 
+  Lane currents_[2] = {all(__builtin_nan("")), all(__builtin_nan(""))};  ///< A, of `resting`
   Lane mean_;  ///< N, the output where all neurons give 0
   Neurons neurons_[kMaxWidth / kTogether];
   const Neurons* end_;

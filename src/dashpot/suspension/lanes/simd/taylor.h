@@ -37,10 +37,10 @@ class TaylorSteps {
  public:
   TaylorSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car) {}
 
+  void begin(State&) {}
   /// Forces at the start of a sample, after the command has changed in some lanes.
   void refresh(const State& state, Lane, LaneMask changed, Lane road) {
-    expand_damper(state.x);
-    keep(state.x, damper_[0], road, changed);
+    keep(state.x, damper_at(state.x), road, changed);
   }
   /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
   Lane force() const { return force_; }
@@ -53,7 +53,8 @@ class TaylorSteps {
     do {
       // Terms of the series around the present state, and how far they carry.
       Lane x[kOrder + 1][4];
-      if (!expanded_) expand_damper(state.x);
+      if (!known_) damper_at(state.x);
+      car_.damper.expand(damper_);
       expand(state.x, road, done, x);
       const Lane share = length(x, left);
 
@@ -63,7 +64,7 @@ class TaylorSteps {
         for (std::size_t k = kOrder; k-- > 0;) sum = x[k][i] + share * sum;
         state.x[i] = sum;
       }
-      expanded_ = false;
+      known_ = false;
 
       // What is left of the sample, exactly 0 where the step reached its end.
       steps += left > 0 ? all(1) : Lane{};
@@ -72,9 +73,7 @@ class TaylorSteps {
     } while (any(left > 0));
 
     // Forces at the end, which the controller and the measures see.
-    Lane force[1];
-    car_.damper.expand(state.x[2] - state.x[3], force);
-    keep(state.x, force[0], road.node[2], riding);
+    keep(state.x, damper_at(state.x), road.node[2], riding);
     return riding;
   }
 
@@ -82,11 +81,13 @@ class TaylorSteps {
   Lane steps{};       ///< taken in each lane
 
  private:
-  /// Kept out of line: inlined copies may round differently, and a lane's bits must not depend on
-  /// the place it is called from.
-  [[gnu::noinline]] void expand_damper(const Lane* x) {
-    car_.damper.expand(x[2] - x[3], damper_);
-    expanded_ = true;
+  /// The damper's force, N, at the present velocity, which it knows then. Kept out of line: inlined
+  /// copies may round differently, and a lane's bits must not depend on the place it is called
+  /// from.
+  [[gnu::noinline]] Lane damper_at(const Lane* x) {
+    if (!known_) car_.damper.move_to(x[2] - x[3]);
+    known_ = true;
+    return car_.damper.respond();
   }
   void keep(const Lane* x, Lane force, Lane road, LaneMask which) {
     force_ = which ? force : force_;
@@ -146,23 +147,26 @@ class TaylorSteps {
   Lane length(const Lane (&x)[kOrder + 1][4], Lane left) {
     constexpr double kLeast = 1.0 / 256;
 
-    // The last term over a whole sample, in tolerances; heights and speeds each by their greatest.
+    // The last term over a whole sample, and what it may be; heights and speeds each by their
+    // greatest.
     const auto greatest = [&](std::size_t k, std::size_t i) {
       return fmax(fabs(x[k][i]), fabs(x[k][i + 1]));
     };
-    const auto error = [&](std::size_t i) {
-      return greatest(kOrder, i) / (ride_.absolute_tolerance +
-                                    ride_.relative_tolerance * (greatest(0, i) + greatest(1, i)));
+    const auto allowed = [&](std::size_t i) {
+      return ride_.absolute_tolerance +
+             ride_.relative_tolerance * (greatest(0, i) + greatest(1, i));
     };
-    const Lane off = fmax(error(0), error(2));
+    const Lane heights = greatest(kOrder, 0), speeds = greatest(kOrder, 2),
+               heights_may = allowed(0), speeds_may = allowed(2);
 
     // All that is left in one step, where the term is small enough at its end.
-    const Lane square = left * left, here = off * (square * square) * square;
-    const LaneMask whole = here <= 1;
+    const Lane square = left * left, power = square * square * square;
+    const LaneMask whole = (heights * power <= heights_may) & (speeds * power <= speeds_may);
     if (!any(~whole)) return left;
 
     // Else the share at which it would just be: off^(-1/6), for which off^(-1/5), which is shorter,
     // stands since off > 1.
+    const Lane off = fmax(heights / heights_may, speeds / speeds_may);
     const Lane shorter = fmin(fmax(0.9 * about_fifth_root_below(off), kLeast), left);
     missed = missed | (~whole & (shorter <= kLeast) & (left > kLeast));
     return whole ? left : shorter;
@@ -171,7 +175,7 @@ class TaylorSteps {
   const LaneRide& ride_;
   Car& car_;
   typename Damper::Polynomial damper_;  ///< around the velocity at which it was expanded
-  bool expanded_ = false;               ///< it is the present velocity
+  bool known_ = false;                  ///< the damper knows it at the present velocity
   Lane force_{}, acceleration_[2]{};
 };
 
