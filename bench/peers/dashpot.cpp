@@ -33,12 +33,12 @@ double peak_float(SimdLevel level) {
 double peak_float(SimdLevel) { return 0; }
 #endif
 
-double train_one_epoch(SimdLevel level) {
+/// Seconds per sample of the training: the median of `epochs`.
+double train_network(Mlp mlp, std::size_t batch, int epochs, SimdLevel level) {
   static const TrainingSamples samples = training_samples();
-  Mlp mlp = network(kRelu);
   std::vector<double> seconds;
   double start = cpu_seconds();
-  BatchTrainOptions options{.batch = kBatch, .epochs = 11, .level = level};
+  BatchTrainOptions options{.batch = batch, .epochs = epochs, .level = level};
   options.on_epoch = [&](int, double) {
     seconds.push_back(cpu_seconds() - start);
     start = cpu_seconds();
@@ -46,6 +46,52 @@ double train_one_epoch(SimdLevel level) {
   train_batches(mlp, samples, options);
   std::sort(seconds.begin(), seconds.end());
   return seconds[seconds.size() / 2] / kSamples;
+}
+double train_one_epoch(SimdLevel level) { return train_network(network(kRelu), kBatch, 11, level); }
+
+/// Multiplications and additions per sample of a training by Adam, as bench/compare counts them.
+double training_operations(const std::vector<std::size_t>& layers, std::size_t batch) {
+  double weights = 0, neurons = 0;
+  for (std::size_t l = 1; l < layers.size(); ++l) {
+    weights += static_cast<double>(layers[l - 1] * layers[l]);
+    neurons += static_cast<double>(layers[l]);
+  }
+  const double hidden = neurons - 1, first = static_cast<double>(layers[0] * layers[1]);
+  const double forward = 2 * weights + neurons + hidden, by_weights = 2 * weights + neurons,
+               by_activations = 2 * (weights - first) + hidden;
+  return forward + by_weights + by_activations + 3 +
+         12 * (weights + neurons) / static_cast<double>(batch);
+}
+
+/// Tables in Markdown: ns per sample and the share of the peak, over width, depth and batch.
+void print_surface(SimdLevel level) {
+  constexpr std::size_t kBatches[] = {1, 4, 10, 20, 60, 200};
+  for (const std::size_t depth : {1, 2, 3, 5}) {
+    std::printf("\n| hidden layers: %zu, of |", depth);
+    for (const std::size_t batch : kBatches) std::printf(" batch %zu |", batch);
+    std::printf("\n|---|%s\n", "---:|---:|---:|---:|---:|---:|");
+    for (const std::size_t width : {8, 15, 16, 31, 32, 64, 128}) {
+      std::vector<std::size_t> layers{8};
+      layers.insert(layers.end(), depth, width);
+      layers.push_back(1);
+      Mlp mlp;
+      mlp.layers = layers;
+      mlp.activations.assign(depth, Activation::Relu);
+      mlp.activations.push_back(Activation::Identity);
+      mlp.input_mean.assign(8, 0.0);
+      mlp.input_scale.assign(8, 1.0);
+      initialise(mlp, 1);
+
+      std::printf("| %zu neurons |", width);
+      for (const std::size_t batch : kBatches) {
+        const double seconds = train_network(mlp, batch, 3, level);
+        const double floor = training_operations(layers, batch) / 2 * peak_float(level);
+        std::printf(" %.0f ns, %.0f %% |", 1e9 * seconds, 100 * floor / seconds);
+        std::fflush(stdout);
+      }
+      std::printf("\n");
+    }
+  }
 }
 
 template <class Real>
@@ -102,6 +148,10 @@ int main(int count, char** arguments) {
   }
   if (count > 2 && arguments[1] == std::string("ride")) {
     print_ride(arguments[2] == std::string(kRideTasks[0]) ? Ride::Network : Ride::BoucWen);
+    return 0;
+  }
+  if (count > 1 && arguments[1] == std::string("surface")) {
+    print_surface(simd_levels().back());
     return 0;
   }
   const bool narrow = count > 1 && arguments[1] == std::string("avx2");

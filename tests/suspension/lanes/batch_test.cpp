@@ -214,6 +214,24 @@ TEST_CASE("stiff hysteresis loops of any shape keep the tolerance in lanes, in f
   }
 }
 
+TEST_CASE("a network whose neurons are far from 0 at rest rides in lanes as it does alone") {
+  Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), "mix1", 2);
+  const auto& network = dynamic_cast<const NetworkModel&>(*fleet.dampers[0].model);
+  Mlp mlp = network.members()[0];
+  for (std::size_t n = 0; n < 10; ++n) mlp.parameters[20 + n] = n % 2 ? 45.0 : -45.0;
+  for (std::size_t n = 0; n < 10; ++n) mlp.parameters[2 * n] = 300;  // the speed brings them back
+  fleet.dampers[0].model =
+      std::make_shared<NetworkModel>("far", network.inputs(), std::vector{mlp}, 5);
+  const BatchVehicle& vehicle = fleet.vehicles[1];
+  const BatchOptions options{.duration = 1, .relative_tolerance = 1e-7, .traces = true};
+  const BatchResult result = simulate_batch(fleet.vehicles, options)[1];
+  REQUIRE(result.in_lanes);
+  const Trace trace = simulate(
+      vehicle.setting, {.duration = 1, .relative_tolerance = 1e-7, .limits = vehicle.limits});
+  for (const char* channel : {"body", "wheel"})
+    CHECK(apart(result.trace, trace.record, channel) < 1e-5);
+}
+
 TEST_CASE("measures in lanes are those of the trace by simulate()") {
   const Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), "skyhook", 3);
   const BatchOptions options{.duration = 3, .discard = 1};

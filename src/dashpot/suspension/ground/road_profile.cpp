@@ -111,6 +111,9 @@ class DrivenRoad final : public GroundMotion {
       : profile_(std::move(profile)), speed_(speed), points_per_second_(speed / profile_.spacing) {
     for (const std::vector<double>& heights : profile_.tracks)
       points_.push_back(mirrored_at_ends(heights));
+    for (const std::vector<double>& points : points_)
+      tracks_.push_back(
+          {points.data(), static_cast<double>(points.size() - 3), points_per_second_});
   }
   bool is_steady() const noexcept override { return true; }
   std::string description() const override {
@@ -119,7 +122,7 @@ class DrivenRoad final : public GroundMotion {
   double duration() const noexcept override { return profile_.length() / speed_; }
   double speed() const noexcept override { return speed_; }
   FootMotion foot(double t, std::size_t track, double behind) const noexcept override {
-    const TrackPoints points = track_points(track);
+    const TrackPoints& points = track_points(track);
     return motion_at(points, place_at(points, points_at(t, behind)));
   }
   void feet(double t, double step, std::size_t track, double behind,
@@ -128,13 +131,13 @@ class DrivenRoad final : public GroundMotion {
   }
 
  private:
-  TrackPoints track_points(std::size_t track) const noexcept {
-    const std::vector<double>& points = points_[std::min(track, points_.size() - 1)];
-    return {points.data(), static_cast<double>(points.size() - 3), points_per_second_};
+  const TrackPoints& track_points(std::size_t track) const noexcept {
+    return tracks_[std::min(track, tracks_.size() - 1)];
   }
   /// The way, in points, of a foot so far behind.
   double points_at(double t, double behind) const noexcept {
-    return points_per_second_ * t - behind / profile_.spacing;
+    const double way = points_per_second_ * t;
+    return behind == 0 ? way : way - behind / profile_.spacing;
   }
   static std::vector<double> mirrored_at_ends(const std::vector<double>& z) {
     std::vector<double> points{z[1]};
@@ -146,6 +149,7 @@ class DrivenRoad final : public GroundMotion {
   RoadProfile profile_;
   double speed_, points_per_second_;
   std::vector<std::vector<double>> points_;  ///< of each track
+  std::vector<TrackPoints> tracks_;          ///< the same as they are met
 };
 
 /// Lets the road rise from level and 0 over its first metres: a car does not fall onto the road.

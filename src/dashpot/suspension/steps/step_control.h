@@ -10,6 +10,7 @@ namespace dashpot {
 /// How much longer the next step may be after one of this error, in tolerances: 0.9 error^-power
 /// within 0.2 ... 5; power: 1 / order of the error in the step's length.
 inline double step_factor(double error, double power) {
+  if (error < 1e-4 && power >= 0.2) return 5;  // as most errors are: no need for the power
   return std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -power), 0.2, 5.0) : 0.2;
 }
 
