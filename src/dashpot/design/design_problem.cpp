@@ -226,7 +226,7 @@ DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
     const DesignQuantity& quantity = quantity_of(k);
     const Appraisal& own = told[question_of_[k]];
     const auto figure = [&](const DamperPhysics& physics) {
-      return quantity.of({damper, question.at, physics, model_of(question)});
+      return quantity.of({damper, question.at, physics, model_of(question), &request_});
     };
 
     // Of a band the end at which a figure that is wanted large, or small, is worst.
@@ -247,7 +247,7 @@ std::vector<double> DesignProblem::middle_figures(const DamperDescription& dampe
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
     const DamperOperation& at = questions_[question_of_[k]].at;
     const DamperPhysics physics = model.evaluate(damper, at);
-    figures.push_back(quantity_of(k).of({damper, at, physics, model}));
+    figures.push_back(quantity_of(k).of({damper, at, physics, model, &request_}));
   }
   return figures;
 }
