@@ -209,6 +209,43 @@ TEST_CASE("design by a family: a force that does not resist, or leaps from physi
 }
 
 TEST_CASE(
+    "design by a family: a range that leaps where neither force does, or no number, is refused") {
+  // Ten turns make hardly a field, which the line does not see: it has currents. A longer pole then
+  // makes its forces more than physics has, too.
+  const TemporaryFolder folder;
+  FamilyLine line;
+  line.gap = 1e-3;
+  line.pole_length = 6e-3;
+  line.viscosity = 0.28;
+  line.slow = 1e-3;
+  line.size = {1.5, 1, 0, 0, 10, 0};
+  line.phase.assign(6, 0.);
+  Family family = family_of(std::make_shared<LineFamily>(line));
+  const DamperOperation at{0.5, 0.02};
+  const auto refusal = [&](DamperDescription drawn, bool insist) {
+    const FamilyModel model(std::make_shared<Family>(family), example_member());
+    return make_design_model(family_file(folder, model), "--model", insist)
+        ->appraise(drawn, at)
+        .refusal;
+  };
+  DamperDescription drawn = named_description("family_prototype");
+  CHECK(refusal(drawn, false) == Refusal::None);
+  drawn.turns = 10;
+  CHECK(refusal(drawn, false) == Refusal::RangeLeap);
+  CHECK(refusal(drawn, true) == Refusal::None);
+  drawn.pole_length *= 1.2;
+  CHECK(refusal(drawn, false) == Refusal::Leap);
+
+  // No number, whoever insists.
+  Mlp mlp = example_family_mlp();
+  for (double& weight : mlp.parameters) weight = 1e200;
+  mlp.output_scale = 1e200;
+  family.force = std::make_shared<FamilyNetwork>(
+      std::vector<std::string>{"gap", "yield_stress", "velocity"}, std::vector{mlp});
+  CHECK(refusal(drawn, true) == Refusal::NoResistance);
+}
+
+TEST_CASE(
     "design by a family: whatever the goal, a force that the current takes away is no design's") {
   // None of these asks for a force: mass, a field, and one of another model.
   const TemporaryFolder folder;

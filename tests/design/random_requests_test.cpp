@@ -30,25 +30,36 @@ struct RandomFamily {
 constexpr Domain kDriven{-0.02, 0.02, -0.05, 0.05, 0, 1};
 
 /// N and how far builds differ, where a sine of the half stroke passes a place at a velocity, after
-/// some cycles in steps of the test's own.
+/// as many cycles from rest, in steps of the test's own, as it takes until the force is the same
+/// again; a weak spring before a strong resistance takes hundreds. Or, to look only, a few cycles.
 struct SineForce {
   double force = 0, spread = 0;
 };
-SineForce force_of_sine(const DamperModel& model, const DamperOperation& at, double half_stroke) {
-  constexpr int kSteps = 400, kCycles = 3;
+struct SineSteps {
+  int of_cycle = 400, most_cycles = 1000;
+};
+SineForce force_of_sine(const DamperModel& model, const DamperOperation& at, double half_stroke,
+                        const SineSteps& steps = {}) {
+  constexpr int kLeastCycles = 3;
+  constexpr double kSame = 1e-6;
+  const int of_cycle = steps.of_cycle;
   const double rate = std::abs(at.velocity) / half_stroke,
                amplitude = std::hypot(half_stroke, at.displacement),
                end = std::atan2(at.displacement, std::copysign(half_stroke, at.velocity));
   std::vector<double> state(model.state_size());
   const auto input = [&](int k) {
-    const double phase = end + 2 * std::numbers::pi * k / kSteps;
+    const double phase = end + 2 * std::numbers::pi * k / of_cycle;
     return DamperInput{amplitude * std::sin(phase), amplitude * rate * std::cos(phase), at.current};
   };
-  const int first = -kCycles * kSteps;
-  model.rest(input(first), state);
-  for (int k = first + 1; k <= 0; ++k)
-    model.advance(input(k - 1), input(k), 2 * std::numbers::pi / (rate * kSteps), state);
-  return {model.force(input(0), state), model.spread(input(0), state)};
+  model.rest(input(0), state);
+  double before = 0, now = model.force(input(0), state);
+  for (int cycle = 0; cycle < steps.most_cycles && !state.empty(); ++cycle) {
+    for (int k = 1; k <= of_cycle; ++k)
+      model.advance(input(k - 1), input(k), 2 * std::numbers::pi / (rate * of_cycle), state);
+    before = std::exchange(now, model.force(input(0), state));
+    if (cycle >= kLeastCycles && std::abs(now - before) <= kSame * std::abs(now)) break;
+  }
+  return {now, model.spread(input(0), state)};
 }
 
 /// A line of random slopes: forces that fall to nothing, rise without end or help the motion are
@@ -141,15 +152,16 @@ std::optional<RandomFamily> random_family_at_all(Random& random) {
 
 /// Whether its own damper is one: most that a fit would leave are.
 bool is_damper(const RandomFamily& family) {
+  constexpr SineSteps kLook{60, 2};
+  const double half = family.domain.displacement_max;
   for (const double share : {0.1, 0.5, 1.})
     for (const double side : {-1., 1.}) {
       const double velocity = side * share * family.domain.velocity_max,
-                   half = family.domain.displacement_max;
-      const double off = side * force_of_sine(family.model, {0, velocity}, half).force,
-                   on = side * force_of_sine(family.model,
-                                             {share * family.domain.current_max, velocity}, half)
-                                   .force;
-      if (!(off > 0 && on > off)) return false;
+                   current = share * family.domain.current_max;
+      const double off = side * force_of_sine(family.model, {0, velocity}, half, kLook).force;
+      if (!(off > 0)) return false;
+      const double on = side * force_of_sine(family.model, {current, velocity}, half, kLook).force;
+      if (!(on > off)) return false;
     }
   return true;
 }
@@ -304,7 +316,7 @@ class Judge {
   Judge(const DesignReport& report, const RandomFamily& family, const std::string& file)
       : report_(report), family_(family), file_(file) {}
 
-  void judge(const Design& design) {
+  void judge(const Design& design) const {
     CAPTURE(design.name);
     within_ranges(design);
     for (const double goal : design.assessment.goals) CHECK(std::isfinite(goal));
@@ -397,14 +409,20 @@ class Judge {
     }
   }
 
+  /// N, of the damper of the file; every design of a request is held against the same few.
+  double usual_force(const DamperOperation& at, double half) const {
+    const auto [kept, is_new] = usual_.try_emplace({at.current, at.velocity, at.displacement});
+    if (is_new) kept->second = std::abs(force_of_sine(family_.model, at, half).force);
+    return kept->second;
+  }
+
   /// How many times further from plate flow than the damper of the file.
   double further(const FamilyMember& member, const DamperOperation& at, double force,
                  double half) const {
     DamperOperation known = at;
     known.velocity =
         std::clamp(at.velocity, family_.domain.velocity_min, family_.domain.velocity_max);
-    const double usual = std::abs(force_of_sine(family_.model, known, half).force),
-                 seal = 0.1 * usual;
+    const double usual = usual_force(known, half), seal = 0.1 * usual;
     return force / plate_force(member, at.velocity, at.current, seal) /
            (usual / plate_force(family_.model.member(), known.velocity, at.current, seal));
   }
@@ -448,6 +466,7 @@ class Judge {
   const DesignReport& report_;
   const RandomFamily& family_;
   const std::string& file_;
+  mutable std::map<std::array<double, 3>, double> usual_;
 };
 
 /// Requests that were answered, and how long each took this process.
@@ -501,7 +520,8 @@ struct RandomDesigns {
     designs += static_cast<int>(report.designs.size());
     CHECK((report.conflict || !report.designs.empty() || report.rejected > 0));
     CHECK(!design_verdict(report).empty());
-    for (const Design& design : report.designs) Judge(report, family, file).judge(design);
+    const Judge judge(report, family, file);
+    for (const Design& design : report.designs) judge.judge(design);
   }
 
   /// Nothing where a current or a speed is asked that the family does not know, and is refused.

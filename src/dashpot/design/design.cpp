@@ -57,6 +57,8 @@ class DesignRun {
 };
 
 void DesignRun::note_limits() {
+  if (report_.request.ride)
+    report_.notes.push_back("comfort is that of " + describe(*report_.request.ride));
   for (const DesignModel* model : {model_.get(), second_.get()}) {
     if (!model || !model->is_fitted()) continue;
     if (model->has_band())
@@ -83,7 +85,8 @@ bool DesignRun::is_fitted() const {
 }
 
 /// A fitted model runs through a cycle of motion for each force, where physics has an equation: its
-/// searches are shorter, and end where its error has long been more than their steps.
+/// searches are shorter, and end where its error has long been more than their steps. A ride takes
+/// longer still.
 OptimiseOptions DesignRun::search_options(const std::string& stage, double from, double to) {
   // Its progress is a part of the whole's.
   const Monitor& monitor = report_.options.monitor;
@@ -105,6 +108,12 @@ OptimiseOptions DesignRun::search_options(const std::string& stage, double from,
     options.evaluations = 100;
     options.looks = 50;
     options.step = 1e-6;
+  }
+  if (report_.request.ride) {
+    options.starts = 2;
+    options.evaluations = 30;
+    options.looks = 15;
+    options.step = 1e-3;
   }
   return options;
 }

@@ -10,14 +10,23 @@
 
 namespace dashpot {
 
+/// Why no damper has the forces that a fitted model tells.
+enum class Refusal {
+  None,
+  NoResistance,  ///< they do not resist the motion, with the current or without, or are no numbers
+  LessWithCurrent,
+  Leap,      ///< one lies beyond kMostLeap, or the damper of the model's file has none there
+  RangeLeap  ///< neither does, and their ratio does
+};
+
 /// What a model says of a drawing at one operating point.
 struct Appraisal {
   DamperPhysics physics;
   /// Where the model's force has a band: the same at the ends of both forces' bands at which the
   /// current does least (force low, off_force high) and most.
   std::optional<DamperPhysics> weak, strong;
-  /// No damper has such forces: physics.force, off_force and dynamic_range are NaN.
-  bool refused = false;
+  /// Where there is one, physics.force, off_force and dynamic_range are NaN.
+  Refusal refusal = Refusal::None;
 };
 
 /// Computes a design's figures (SI) from its drawing. Immutable: several threads ask it at a time.

@@ -206,7 +206,7 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn,
   return damper;
 }
 
-std::vector<double> DesignProblem::figures(const DamperDescription& damper) const {
+DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
   const auto model_of = [&](const Question& question) -> const DesignModel& {
     return question.by == ToldBy::Second ? *second_ : model_;
   };
@@ -215,25 +215,27 @@ std::vector<double> DesignProblem::figures(const DamperDescription& damper) cons
   std::vector<Appraisal> told;
   for (const Question& question : questions_) {
     told.push_back(model_of(question).appraise(damper, question.at));
-    if (told.back().refused) return std::vector<double>(question_of_.size(), NAN);
+    if (const Refusal refusal = told.back().refusal; refusal != Refusal::None)
+      return {std::vector<double>(question_of_.size(), NAN), refusal};
   }
 
   // Every goal and constraint reads its figure from the answer to its question.
-  std::vector<double> figures;
+  DamperFigures figures;
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
     const Question& question = questions_[question_of_[k]];
     const DesignQuantity& quantity = quantity_of(k);
     const Appraisal& own = told[question_of_[k]];
     const auto figure = [&](const DamperPhysics& physics) {
-      return quantity.of({damper, question.at, physics, model_of(question)});
+      return quantity.of({damper, question.at, physics, model_of(question), &request_});
     };
 
     // Of a band the end at which a figure that is wanted large, or small, is worst.
     if (own.weak && own.strong && quantity.has_band()) {
       const double weak = figure(*own.weak), strong = figure(*own.strong);
-      figures.push_back(is_wanted_large(k) ? std::min(weak, strong) : std::max(weak, strong));
+      figures.values.push_back(is_wanted_large(k) ? std::min(weak, strong)
+                                                  : std::max(weak, strong));
     } else {
-      figures.push_back(figure(own.physics));
+      figures.values.push_back(figure(own.physics));
     }
   }
   return figures;
@@ -245,7 +247,7 @@ std::vector<double> DesignProblem::middle_figures(const DamperDescription& dampe
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
     const DamperOperation& at = questions_[question_of_[k]].at;
     const DamperPhysics physics = model.evaluate(damper, at);
-    figures.push_back(quantity_of(k).of({damper, at, physics, model}));
+    figures.push_back(quantity_of(k).of({damper, at, physics, model, &request_}));
   }
   return figures;
 }
@@ -275,14 +277,15 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
 
   // The drawing's own figures, or, where a share of the dampers made counts, what this share
   // reaches. A drawing that a model refuses is not made.
-  std::vector<double> all = figures(drawn);
-  const bool refused = std::ranges::all_of(all, [](double figure) { return std::isnan(figure); });
-  if (!made_with_.empty() && !refused) {
+  auto [all, refusal] = figures(drawn);
+  assessment.refusal = refusal;
+  assessment.known = refusal == Refusal::None;
+  if (!made_with_.empty() && assessment.known) {
     std::vector<std::vector<double>> by_quantity(all.size());
     for (const std::vector<double>& shares : made_with_) {
       const DamperDescription damper = made(drawn, shares);
       if (!is_possible(damper)) return impossible();
-      const std::vector<double> of_damper = figures(damper);
+      const std::vector<double> of_damper = figures(damper).values;
       for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
     }
     for (std::size_t k = 0; k < all.size(); ++k)

@@ -7,11 +7,18 @@
 
 namespace dashpot {
 
+/// What the models tell of one damper as it is, SI.
+struct DamperFigures {
+  std::vector<double> values;  ///< of every goal, then of every constraint; NaN where refused
+  Refusal refusal = Refusal::None;
+};
+
 /// How well a damper meets a request. Figures in SI.
 struct Assessment {
-  bool possible = true;       ///< false: no such damper can be drawn; there are no figures then
-  bool known = true;          ///< false: a model refuses its force, or a goal is not finite
-  std::vector<double> goals;  ///< the quantities, as the share of dampers made reaches them
+  bool possible = true;  ///< false: no such damper can be drawn; there are no figures then
+  Refusal refusal = Refusal::None;  ///< by a fitted model, asked or not
+  bool known = true;                ///< false: a model refuses its force, or a goal is not finite
+  std::vector<double> goals;        ///< the quantities, as the share of dampers made reaches them
   std::vector<double> constraints;  ///< likewise
   std::vector<double> slack;  ///< of each constraint, in shares of its bound; negative: it fails
   double violation = 0;       ///< sum of what is negative
@@ -45,10 +52,9 @@ class DesignProblem {
   Assessment assess(const DamperDescription& drawn) const;
   /// The damper with its fields off by these shares of their tolerances.
   DamperDescription made(const DamperDescription& drawn, std::span<const double> shares) const;
-  /// The figures of every goal, then of every constraint, of one damper as it is: each by the model
-  /// that is asked for it, at the pessimistic end of its band. All NaN where a fitted model, asked
-  /// or not, refuses the force at an operating point of any of them.
-  std::vector<double> figures(const DamperDescription& damper) const;
+  /// Each figure by the model that is asked for it, at the pessimistic end of its band; refused
+  /// where a fitted model, asked or not, refuses the force at an operating point of any of them.
+  DamperFigures figures(const DamperDescription& damper) const;
   /// The same by one model, in the middle of its band.
   std::vector<double> middle_figures(const DamperDescription& damper,
                                      const DesignModel& model) const;

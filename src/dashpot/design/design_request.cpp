@@ -190,6 +190,11 @@ void require_consistent(const DesignRequest& request, const std::string& source,
     throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
   if (goals == Goals::Required && request.goals.empty())
     throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
+  if (asks_comfort(request) && !request.ride)
+    throw Error(source, "comfort is asked, and of no ride",
+                "ride: {plant: savaresi_spelta, controller: skyhook}");
+  if (goals == Goals::Required && request.ride && !asks_comfort(request))
+    throw Error(source, "nothing is asked of the ride", "goals: [{minimise: comfort}]");
   for (const DesignVariable& variable : request.variables)
     for (const std::shared_ptr<const Fluid>& fluid : variable.fluids)
       if (!fluid->law(request.damper.yield_law))
@@ -230,6 +235,12 @@ std::size_t DesignVariable::levels() const {
   if (!field) return fluids.size();
   if (!values.empty()) return values.size();
   return step > 0 ? static_cast<std::size_t>(std::floor((to - from) / step * (1 + 1e-12))) + 1 : 0;
+}
+
+bool asks_comfort(const DesignRequest& request) {
+  const auto is_of_ride = [](const auto& asked) { return asked.quantity->name == kRideComfort; };
+  return std::ranges::any_of(request.goals, is_of_ride) ||
+         std::ranges::any_of(request.constraints, is_of_ride);
 }
 
 std::string describe(const DesignConstraint& c) {
@@ -274,7 +285,8 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
         {&field, positive(read_quantity(value, field.unit), value, "the tolerance")});
   });
 
-  // The requirements: robustness, constraints and goals.
+  // The requirements: the ride, robustness, constraints and goals.
+  if (const Value* ride = reader.optional("ride")) request.ride = read_design_ride(*ride);
   if (const Value* robust = reader.optional("robust")) read_robust(*robust, request);
   if (const Value* list = reader.optional("constraints"))
     for (const Value& item : list->items()) read_constraint(item, at, request);

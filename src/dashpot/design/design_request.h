@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "dashpot/design/design_ride.h"
 #include "dashpot/design/quantities.h"
 
 namespace dashpot {
@@ -64,11 +66,15 @@ struct DesignRequest {
   std::vector<DesignConstraint> constraints;
   std::vector<DesignGoal> goals;
   std::vector<DesignTolerance> tolerances;
+  std::optional<DesignRide> ride;  ///< that `comfort` is of
   /// Share of the dampers made that must hold the constraints and reach the goals; 0: the drawn
   /// damper alone counts.
   double share = 0;
   int samples = 32;  ///< dampers that stand for those made
 };
+
+/// Whether a goal or a constraint is of the ride.
+bool asks_comfort(const DesignRequest& request);
 
 /// "force at least 1500 N at 2 A, 0.3 m/s, by the second model"; the same of a goal: "largest
 /// dynamic_range at ..."

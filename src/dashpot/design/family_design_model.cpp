@@ -5,12 +5,9 @@
 #include <limits>
 #include <map>
 #include <mutex>
-#include <numbers>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/kinds/family/line_family.h"
-#include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/design/design_model.h"
 #include "dashpot/error.h"
 #include "dashpot/physics/plate_flow.h"
@@ -23,106 +20,20 @@ struct BenchForce {
   double force = 0, spread = 0;
 };
 
-/// A sine of this half stroke, which passes a place at a velocity, and a model on it.
-class BenchSine {
- public:
-  BenchSine(const FamilyModel& model, const DamperOperation& at, double half_stroke)
-      : model_(model), current_(at.current), state_(model.state_size()) {
-    // x = a sin(w t): a^2 = half_stroke^2 + x^2, w half_stroke = |v| at the place.
-    amplitude_ = std::hypot(half_stroke, at.displacement);
-    rate_ = std::abs(at.velocity) / half_stroke;
-    physics_ = dynamic_cast<const PhysicsFamily*>(model.family().force.get());
-    if (physics_) element_ = physics_->physics().element(model.member(), at.current);
-  }
-  /// Springs as they rest; a remembered square of the speed, q' = (v^2 - q) / t, as this sine has
-  /// long made it, which from rest would take cycles.
-  void rest(double phase) {
-    model_.rest(input(phase), state_);
-    const auto* line = dynamic_cast<const LineFamily*>(model_.family().force.get());
-    if (!line && !physics_) return;
-    const double time = line ? line->line().period() : element_.time, speed = amplitude_ * rate_;
-    const double late = 2 * rate_ * time;
-    state_[line ? 0 : 2] =
-        0.5 * speed * speed *
-        (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
-  }
-  /// Whether springs have nothing left, at this force, of where they were at the turn before: what
-  /// they remember dies away over the travel that they give by.
-  bool has_forgotten(double force) const {
-    constexpr double kTravels = 15;
-    return physics_ && element_.stiffness * amplitude_ > kTravels * std::abs(force) &&
-           element_.seal_stiffness * amplitude_ > kTravels * element_.seal;
-  }
-  BenchForce force(double phase) const {
-    return {model_.force(input(phase), state_), model_.spread(input(phase), state_)};
-  }
-
-  void run(double from, double to) {
-    constexpr double kRounding = 1e-9;
-    const int of_cycle = physics_ ? 40 : 100;  // whose steps are of order two, and the dearest
-    const double cycles = (to - from) / (2 * std::numbers::pi);
-    const int steps = static_cast<int>(std::ceil(cycles * of_cycle - kRounding));
-    const double step = (to - from) / steps;
-
-    // A damper of plate flow at a constant current, whose coil does not lag, is one element for all
-    // steps.
-    if (physics_) {
-      std::vector<double> speeds;
-      for (int k = 0; k <= steps; ++k) speeds.push_back(input(from + k * step).velocity);
-      advance_through(element_, speeds, step / rate_, state_);
-      return;
-    }
-    DamperInput now = input(from);
-    for (int k = 1; k <= steps; ++k) {
-      const DamperInput next = input(from + k * step);
-      model_.advance(now, next, step / rate_, state_);
-      now = next;
-    }
-  }
-
- private:
-  DamperInput input(double phase) const {
-    return {amplitude_ * std::sin(phase), amplitude_ * rate_ * std::cos(phase), current_};
-  }
-
-  const FamilyModel& model_;
-  double current_, amplitude_ = 0, rate_ = 0;
-  std::vector<double> state_;
-  const PhysicsFamily* physics_ = nullptr;
-  FamilyPhysics::Element element_{};
-};
-
-/// The force as a test bench measures it: where a sine of this half stroke passes the displacement
-/// at the velocity, started from rest at the turn before, and as often again as it takes until a
-/// model that remembers has seen a motion of its kind.
+/// The force as a test bench measures it: where a sine of this half stroke, which has long gone on,
+/// passes the displacement at the velocity.
 BenchForce force_in_sine(const FamilyModel& model, const DamperOperation& at, double half_stroke) {
-  constexpr double kPi = std::numbers::pi, kSettled = 1e-3;
-  constexpr int kMostCycles = 12;
-  if (model.state_size() == 0 || at.velocity == 0) {
-    const DamperInput here{at.displacement, at.velocity, at.current};
-    std::vector<double> state(model.state_size());
+  const DamperInput here{at.displacement, at.velocity, at.current};
+  std::vector<double> state(model.state_size());
+  if (at.velocity == 0) {
     model.rest(here, state);
-    return {model.force(here, state), model.spread(here, state)};
+  } else {
+    // x = a sin(w t): a^2 = half_stroke^2 + x^2, w half_stroke = |v| at the place.
+    const SteadySine sine{std::hypot(half_stroke, at.displacement),
+                          std::abs(at.velocity) / half_stroke, at.current};
+    model.settle(sine, std::atan2(at.displacement, std::copysign(half_stroke, at.velocity)), state);
   }
-
-  // From the turn to the place.
-  BenchSine sine(model, at, half_stroke);
-  const double turn = std::copysign(0.5 * kPi, -at.velocity);
-  double end = std::atan2(at.displacement, std::copysign(half_stroke, at.velocity));
-  if (end < turn) end += 2 * kPi;
-  sine.rest(turn);
-  sine.run(turn, end);
-
-  // Cycle by cycle.
-  BenchForce told = sine.force(end);
-  if (end - turn >= 0.5 * kPi && sine.has_forgotten(told.force)) return told;
-  for (int cycle = 0; cycle < kMostCycles; ++cycle) {
-    const double before = told.force;
-    sine.run(end, end + 2 * kPi);
-    told = sine.force(end);
-    if (!(std::abs(told.force - before) > kSettled * std::abs(told.force))) break;
-  }
-  return told;
+  return {model.force(here, state), model.spread(here, state)};
 }
 
 /// Plate flow of a member and the friction of a seal, N, at an instant: what every member's force
@@ -161,9 +72,8 @@ class FamilyDesignModel final : public DesignModel {
     const double half_stroke = half_stroke_of(description);
     const BenchForce on = force_in_sine(*damper, operation, half_stroke);
     const BenchForce off = force_in_sine(*damper, without_current(operation), half_stroke);
-    told.refused = !is_force(on.force, off.force, operation.velocity) ||
-                   (!insist_ && leaps(member, on.force, off.force, operation, half_stroke));
-    if (told.refused) {
+    told.refusal = refusal_of(member, on.force, off.force, operation, half_stroke);
+    if (told.refusal != Refusal::None) {
       refused_ = true;
       told.physics.force = told.physics.off_force = told.physics.dynamic_range =
           std::numeric_limits<double>::quiet_NaN();
@@ -216,8 +126,7 @@ class FamilyDesignModel final : public DesignModel {
   }
 
   bool dissipates(const DamperDescription& description, int threads) const override {
-    if (dynamic_cast<const PhysicsFamily*>(family_->family().force.get()))
-      return true;  // whatever its numbers: its structure can do nothing else
+    if (family_->family().force->is_passive()) return true;
     FamilyMember member = member_of(description, current_);
     member.lag_rate = 0;  // the current stands still in every cycle
     return dissipation(*family_->with_member(member), file_.domain, threads).dissipates();
@@ -254,13 +163,17 @@ class FamilyDesignModel final : public DesignModel {
     return at;
   }
   static bool resists(double force, double velocity) {
-    return velocity == 0 || (std::isfinite(force) && force * velocity > 0);
+    return std::isfinite(force) && force * velocity > 0;
   }
-  /// Whether a damper may have these: it resists its motion, and the current takes no force away.
-  static bool is_force(double on, double off, double velocity) {
+  /// Why no damper has these: a damper resists its motion, the current takes no force away, and
+  /// unless the user insists it lies not far from physics.
+  Refusal refusal_of(const FamilyMember& member, double on, double off, const DamperOperation& at,
+                     double half_stroke) const {
     constexpr double kRounding = 1e-9;
-    return resists(on, velocity) && resists(off, velocity) &&
-           !(velocity != 0 && std::abs(on) < std::abs(off) * (1 - kRounding));
+    if (at.velocity == 0) return Refusal::None;
+    if (!resists(on, at.velocity) || !resists(off, at.velocity)) return Refusal::NoResistance;
+    if (std::abs(on) < std::abs(off) * (1 - kRounding)) return Refusal::LessWithCurrent;
+    return insist_ ? Refusal::None : leap_of(member, on, off, at, half_stroke);
   }
 
   double half_width(const DamperOperation& at, double spread) const {
@@ -278,14 +191,13 @@ class FamilyDesignModel final : public DesignModel {
   /// Whether a force, with the current or without, or their ratio lies kMostLeap times further from
   /// the plate flow's than that of the damper with which the family's file stands, at the same
   /// place; or that damper has none there.
-  bool leaps(const FamilyMember& member, double on, double off, const DamperOperation& at,
-             double half_stroke) const {
-    if (at.velocity == 0) return false;
+  Refusal leap_of(const FamilyMember& member, double on, double off, const DamperOperation& at,
+                  double half_stroke) const {
     const std::optional<double> by_current = leap(member, on, at, half_stroke),
                                 without = leap(member, off, without_current(at), half_stroke);
     const auto is_far = [](double times) { return times > kMostLeap || times * kMostLeap < 1; };
-    return !by_current || !without || is_far(*by_current) || is_far(*without) ||
-           is_far(*by_current / *without);
+    if (!by_current || !without || is_far(*by_current) || is_far(*without)) return Refusal::Leap;
+    return is_far(*by_current / *without) ? Refusal::RangeLeap : Refusal::None;
   }
 
   /// How many times further; nothing where the file's damper has no force there.

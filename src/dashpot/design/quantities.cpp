@@ -118,6 +118,13 @@ constexpr std::array kEstimates{
       {},
       {},
       outside_family,
+      true},
+    Q{kRideComfort,
+      "m/s^2",
+      "of the request's ride: the body's weighted acceleration, rms (ISO 2631-1, Wk)",
+      {},
+      {},
+      comfort,
       true}};
 
 struct PhysicsWord {

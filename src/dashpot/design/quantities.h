@@ -7,12 +7,15 @@
 
 namespace dashpot {
 
-/// A damper at work, of which quantities are computed; all four must outlive it.
+struct DesignRequest;
+
+/// A damper at work, of which quantities are computed; all must outlive it.
 struct OperatedDamper {
   const DamperDescription& description;
   const DamperOperation& operation;
   const DamperPhysics& physics;
   const DesignModel& model;
+  const DesignRequest* request = nullptr;  ///< whose ride `comfort` is of; null: there is none
 };
 
 /// Something that a design can be asked for: a figure of the physics, a field, or an estimate made
@@ -48,6 +51,11 @@ struct ShownUnit {
 ShownUnit shown_unit(std::string_view si_unit);
 /// "12.3 mm" of a figure in SI.
 std::string shown_figure(double value, std::string_view si_unit);
+
+/// Name of the quantity that the ride of a request has.
+constexpr std::string_view kRideComfort = "comfort";
+/// ridden_comfort() (design_ride.h) of the damper's model; NaN without a ride.
+double comfort(const OperatedDamper& damper);
 
 /// Time from a step of the coil's voltage to 90 % of the force's change, s. The flux linkage N
 /// phi(i) follows the circuit with its saturation; eddy currents and the fluid's own milliseconds

@@ -22,7 +22,7 @@ std::vector<double> figures_of(const DesignProblem& problem, const DamperDescrip
   } catch (const Error&) {
     return std::vector<double>(request.goals.size() + request.constraints.size(), NAN);
   }
-  return problem.figures(damper);
+  return problem.figures(damper).values;
 }
 
 Rows draw(std::size_t samples, std::size_t count, Random& random) {
@@ -125,7 +125,8 @@ void add_local(const DesignProblem& problem, const DamperDescription& design, Se
 Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& design,
                         const SensitivityOptions& options) {
   Sensitivity result;
-  for (const double figure : problem.figures(design)) result.figures.push_back({.drawn = figure});
+  for (const double figure : problem.figures(design).values)
+    result.figures.push_back({.drawn = figure});
   if (problem.request().tolerances.empty()) return result;
 
   // Derivatives at the drawing.

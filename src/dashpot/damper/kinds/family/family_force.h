@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/family/family_member.h"
+#include "dashpot/damper/kinds/family/steady_sine.h"
 #include "dashpot/damper/nets/hysteresis_bank.h"
 #include "dashpot/damper/nets/mlp_evaluator.h"
 #include "dashpot/damper_model.h"
@@ -23,12 +24,16 @@ class FamilyForce {
   virtual void rest(const DamperInput&, std::span<double>) const noexcept {}
   virtual void advance(const FamilyMember&, const DamperInput&, const DamperInput&, double,
                        std::span<double>) const noexcept {}
+  /// The states where a sine that has long gone on passes a phase.
+  virtual void settle(const FamilyMember&, const SteadySine&, double, std::span<double>) const {}
   virtual double force(const FamilyMember& member, const DamperInput& input,
                        std::span<const double> state) const noexcept = 0;
   /// Whether an integrator may step the states by flow(), their derivatives by time.
   virtual bool flows() const noexcept { return true; }
   virtual void flow(const DamperInput&, std::span<const double>, std::span<double>) const noexcept {
   }
+  /// Whether its structure takes energy out over every cycle, whatever its numbers.
+  virtual bool is_passive() const noexcept { return false; }
   /// These four do what those of DamperModel do.
   virtual bool is_ensemble() const noexcept { return false; }
   virtual double spread(const FamilyMember&, const DamperInput&) const noexcept { return 0; }
@@ -109,6 +114,8 @@ class GatedFamily final : public FamilyForce {
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   void advance(const FamilyMember& member, const DamperInput& from, const DamperInput& to,
                double dt, std::span<double> state) const noexcept override;
+  void settle(const FamilyMember& member, const SteadySine& sine, double phase,
+              std::span<double> state) const override;
   double force(const FamilyMember& member, const DamperInput& input,
                std::span<const double> state) const noexcept override;
   Value to_json() const override;

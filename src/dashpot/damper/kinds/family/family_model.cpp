@@ -41,6 +41,12 @@ void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double
   family_->force->advance(member_, before, in_coil(to, state), dt, state.first(own));
 }
 
+void FamilyModel::settle(const SteadySine& sine, double phase, std::span<double> state) const {
+  const std::size_t own = family_->force->state_size();
+  family_->force->settle(member_, sine, phase, state.first(own));
+  if (member_.lag_rate > 0) state[own] = sine.current;
+}
+
 double FamilyModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
   return strength_ * nominal_force(in_coil(input, state), state) + offset_;
 }

@@ -50,6 +50,8 @@ class FamilyModel final : public DamperModel {
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
+  /// The states where a sine that has long gone on passes a phase.
+  void settle(const SteadySine& sine, double phase, std::span<double> state) const;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
   bool flows() const noexcept override { return family_->force->flows(); }
   double flow(const DamperInput& input, std::span<const double> state,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dashpot/damper/kinds/family/family_force.h"
 #include "dashpot/error.h"
@@ -106,6 +107,18 @@ void GatedFamily::rest(const DamperInput& input, std::span<double> state) const 
 void GatedFamily::advance(const FamilyMember&, const DamperInput& from, const DamperInput& to,
                           double dt, std::span<double> state) const noexcept {
   gates_.bank.advance(from, to, dt, state);
+}
+
+void GatedFamily::settle(const FamilyMember& member, const SteadySine& sine, double phase,
+                         std::span<double> state) const {
+  constexpr int kOfCycle = 100;
+  const double part = 2 * std::numbers::pi / kOfCycle;
+  rest(sine.at(phase), state);
+  find_cycle(state, [&](std::span<double> cycled) {
+    for (int k = 1; k <= kOfCycle; ++k)
+      advance(member, sine.at(phase + (k - 1) * part), sine.at(phase + k * part), part / sine.rate,
+              cycled);
+  });
 }
 
 double GatedFamily::force(const FamilyMember& member, const DamperInput& input,

@@ -52,6 +52,11 @@ void LineFamily::advance(const FamilyMember&, const DamperInput& from, const Dam
   state[0] = line_.remember(state[0], from.velocity, to.velocity, dt);
 }
 
+void LineFamily::settle(const FamilyMember&, const SteadySine& sine, double phase,
+                        std::span<double> state) const {
+  state[0] = sine.remembered_square(phase, line_.period());
+}
+
 void LineFamily::flow(const DamperInput& input, std::span<const double> state,
                       std::span<double> rates) const noexcept {
   rates[0] = (input.velocity * input.velocity - state[0]) / line_.period();

@@ -54,6 +54,8 @@ class LineFamily final : public FamilyForce {
   void rest(const DamperInput&, std::span<double> state) const noexcept override { state[0] = 0; }
   void advance(const FamilyMember& member, const DamperInput& from, const DamperInput& to,
                double dt, std::span<double> state) const noexcept override;
+  void settle(const FamilyMember& member, const SteadySine& sine, double phase,
+              std::span<double> state) const override;
   void flow(const DamperInput& input, std::span<const double> state,
             std::span<double> rates) const noexcept override;
   double force(const FamilyMember& member, const DamperInput& input,

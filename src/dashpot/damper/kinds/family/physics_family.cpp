@@ -1,7 +1,9 @@
 #include "dashpot/damper/kinds/family/physics_family.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "dashpot/error.h"
 
@@ -85,6 +87,46 @@ constexpr ReferenceField kReferences[] = {{"piston_area", &FamilyPhysics::Refere
                                           {"speed", &FamilyPhysics::Reference::speed},
                                           {"stroke", &FamilyPhysics::Reference::stroke}};
 
+/// A damper at a constant current in a sine: one element for all steps.
+class SineRun {
+ public:
+  /// At most so much is left, by the end, of a change of either spring's force at the beginning.
+  using Kept = std::array<double, 2>;
+
+  SineRun(const FamilyPhysics::Element& element, const SteadySine& sine)
+      : element_(element), sine_(sine) {}
+
+  Kept through(double from, double to, std::span<double> state) const {
+    constexpr double kOfCycle = 40, kRounding = 1e-9;
+    const double count = std::ceil((to - from) / (2 * std::numbers::pi) * kOfCycle - kRounding);
+    const double phase = (to - from) / count, step = phase / sine_.rate;
+    std::array<double, 2> travels{};
+    double now = sine_.at(from).velocity;
+    for (int k = 1; k <= count; ++k) {
+      const double next = sine_.at(from + k * phase).velocity;
+      const std::array<double, 2> before{state[0], state[1]};
+      physics_advance(&element_, now, next, step, state.data());
+      const double way = 0.5 * (now + next) * step;
+      travels[0] += travel(element_.seal_stiffness * way, before[0], state[0]);
+      travels[1] += travel(element_.stiffness * way, before[1], state[1]);
+      now = next;
+    }
+    return {std::exp(-travels[0]), std::exp(-travels[1])};
+  }
+
+ private:
+  /// What the resistance was moved by in a step, in ways over which the spring gives by its force.
+  /// A spring's force f before a resistance that takes the speed u forgets by K df/du or more, and
+  /// df/du is f / u at most, since a resistance falls with the speed.
+  static double travel(double pull, double before, double after) {
+    const double ways = (pull - (after - before)) / (0.5 * (before + after));
+    return ways > 0 && std::isfinite(ways) ? ways : 0;
+  }
+
+  const FamilyPhysics::Element& element_;
+  const SteadySine& sine_;
+};
+
 }  // namespace
 
 std::span<const PhysicsNumber, kPhysicsNumbers> FamilyPhysics::table() { return kTable; }
@@ -118,6 +160,29 @@ void PhysicsFamily::advance(const FamilyMember& member, const DamperInput& from,
   physics_advance(&element, from.velocity, to.velocity, dt, state.data());
 }
 
+void PhysicsFamily::settle(const FamilyMember& member, const SteadySine& sine, double phase,
+                           std::span<double> state) const {
+  const FamilyPhysics::Element element = physics_.element(member, sine.current);
+  const SineRun run(element, sine);
+
+  // Springs at rest at the turn before, and the remembered speed as it has long been.
+  constexpr double kPi = std::numbers::pi, kForgotten = 1e-4, kSettled = 1e-3;
+  const double turn = kPi * (std::floor(phase / kPi - 0.5) + 0.5);
+  state[0] = state[1] = 0;
+  state[2] = sine.remembered_square(turn, element.time);
+  SineRun::Kept kept = run.through(turn, phase, state);
+  if (std::ranges::max(kept) < kForgotten) return;
+
+  // A cycle, and what those after it could move; only where that is much, the one that returns.
+  const std::array<double, 2> before{state[0], state[1]};
+  kept = run.through(phase, phase + 2 * kPi, state);
+  double open = 0;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    open += kept[k] * std::abs(state[k] - before[k]) / (1 - kept[k]);
+  if (open <= kSettled * std::abs(state[0] + state[1])) return;
+  find_cycle(state, [&](std::span<double> cycled) { run.through(phase, phase + 2 * kPi, cycled); });
+}
+
 double PhysicsFamily::force(const FamilyMember&, const DamperInput&,
                             std::span<const double> state) const noexcept {
   return state[0] + state[1] + physics_.reference.force * physics_.deviation[3];
@@ -142,12 +207,6 @@ std::vector<double> run_family_physics(const FamilyPhysics& physics, const Famil
     force[k] = state[0] + state[1] + element.offset;
   }
   return force;
-}
-
-void advance_through(const FamilyPhysics::Element& element, std::span<const double> speeds,
-                     double dt, std::span<double> state) {
-  for (std::size_t k = 1; k < speeds.size(); ++k)
-    physics_advance(&element, speeds[k - 1], speeds[k], dt, state.data());
 }
 
 std::vector<double> FamilyPhysics::deviation_covariance() const {

@@ -69,11 +69,6 @@ std::vector<double> run_family_physics(const FamilyPhysics& physics, const Famil
                                        std::span<const DamperInput> inputs,
                                        std::span<const double> time);
 
-/// A damper at a constant current through speeds, m/s, dt apart: `state` goes from the first to the
-/// last.
-void advance_through(const FamilyPhysics::Element& element, std::span<const double> speeds,
-                     double dt, std::span<double> state);
-
 /// State: the seal's force and that of the flow, N, and the remembered square of the speed.
 constexpr std::size_t kPhysicsStates = 3;
 
@@ -87,10 +82,13 @@ class PhysicsFamily final : public FamilyForce {
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   void advance(const FamilyMember& member, const DamperInput& from, const DamperInput& to,
                double dt, std::span<double> state) const noexcept override;
+  void settle(const FamilyMember& member, const SteadySine& sine, double phase,
+              std::span<double> state) const override;
   double force(const FamilyMember& member, const DamperInput& input,
                std::span<const double> state) const noexcept override;
   /// Its springs may be too stiff for the integrator of a vehicle: it steps itself.
   bool flows() const noexcept override { return false; }
+  bool is_passive() const noexcept override { return true; }
   Value to_json() const override;
   const FamilyPhysics& physics() const { return physics_; }
   static constexpr std::string_view kDeviationNames[] = {"force", "flow", "stiffness", "offset"};

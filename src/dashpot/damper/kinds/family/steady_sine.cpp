@@ -1,0 +1,49 @@
+#include "dashpot/damper/kinds/family/steady_sine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace dashpot {
+
+DamperInput SteadySine::at(double phase) const noexcept {
+  return {amplitude * std::sin(phase), speed() * std::cos(phase), current};
+}
+
+double SteadySine::remembered_square(double phase, double time) const noexcept {
+  const double late = 2 * rate * time;
+  return 0.5 * speed() * speed() *
+         (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
+}
+
+void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle) {
+  constexpr int kMostCycles = 12;
+  constexpr double kSettled = 1e-3, kStill = 1e-9, kMostKept = 1 - 1e-6;
+  std::vector<double> from(state.begin(), state.end()), to(from), last_from, last_to;
+  for (int k = 0; k < kMostCycles; ++k) {
+    from.assign(state.begin(), state.end());
+    cycle(state);
+    to.assign(state.begin(), state.end());
+
+    // What a cycle keeps of a change in where it began; and from there what comes of many.
+    bool settled = true;
+    for (std::size_t n = 0; n < state.size(); ++n) {
+      const double moved = to[n] - from[n];
+      if (std::abs(moved) <= kStill * std::abs(to[n])) continue;
+      if (k == 0) {
+        settled = false;
+        continue;
+      }
+      const double kept =
+          std::clamp((to[n] - last_to[n]) / (from[n] - last_from[n]), 0., kMostKept);
+      const double step = moved / (1 - kept);
+      state[n] = from[n] + step;
+      if (kept * std::abs(step) > kSettled * std::abs(state[n])) settled = false;
+    }
+    if (settled) return;
+    last_from.swap(from);
+    last_to.swap(to);
+  }
+}
+
+}  // namespace dashpot

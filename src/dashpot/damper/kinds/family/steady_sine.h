@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <span>
+
+#include "dashpot/damper_model.h"
+
+namespace dashpot {
+
+/// A sine at a constant current that has long gone on: x = a sin(p), v = a w cos(p) at a phase p.
+struct SteadySine {
+  double amplitude = 0, rate = 0, current = 0;  ///< m, rad/s (above 0), A
+  DamperInput at(double phase) const noexcept;
+  double speed() const noexcept { return amplitude * rate; }
+  /// q of q' = (v^2 - q) / time there.
+  double remembered_square(double phase, double time) const noexcept;
+};
+
+/// Moves a state to one that a cycle brings back. A cycle may take long to forget where it began,
+/// so each number goes where the line through its last two cycles returns: at once where the number
+/// sees only itself and the motion, and linearly; else after some cycles more.
+void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle);
+
+}  // namespace dashpot

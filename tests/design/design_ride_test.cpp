@@ -1,0 +1,105 @@
+#include "dashpot/design/design_ride.h"
+
+#include "damper/kinds/family/example_family.h"
+#include "dashpot/design/design.h"
+#include "dashpot/design/design_law.h"
+#include "dashpot/report/design_report.h"
+#include "dashpot/suspension/ride/simulated_run.h"
+#include "resisting_family.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr const char* kCar = R"(
+damper: passenger_car
+at: {current: 2 A, velocity: 0.3 m/s}
+vary: {gap: {from: 0.8 mm, to: 2 mm}}
+)";
+
+DesignReport ridden_design(const std::string& rest, DesignOptions options = {}) {
+  options.threads = 1;
+  return design(parse_request(kCar + rest, "request.yaml"), options);
+}
+
+/// The a_w of a drawing in that ride, by the law that its model file holds.
+double comfort_of(const DamperDescription& damper, const DesignRequest& request) {
+  const auto physics = make_design_model("physics", "");
+  VehicleWords words;
+  words.plant = "savaresi_spelta";
+  words.controller = "skyhook";
+  const auto vehicle = std::make_shared<const Vehicle>(
+      make_vehicle(words, law_of_design(damper, request, *physics).file));
+  const GroundPointer road = make_ground("iso8608,class=D", 3, "");
+  return measure_named(run_vehicle(vehicle, *road, {.duration = 2}).measures,
+                       "weighted_acceleration");
+}
+
+}  // namespace
+
+TEST_CASE("a design for comfort: the drawing whose damper rides best in its plant") {
+  const DesignReport report = ridden_design(
+      "ride: {plant: savaresi_spelta, controller: skyhook, road: 'iso8608,class=D', seed: 3, "
+      "duration: 2 s}\ngoals: [{minimise: comfort}]");
+  REQUIRE(report.designs.size() == 1);
+  const Design& best = report.designs.front();
+  CHECK_CLOSE(best.assessment.goals.front(), comfort_of(best.damper, report.request), 1e-9, 0);
+  for (const double gap : {0.8e-3, 1.2e-3, 1.6e-3, 2e-3}) {
+    DamperDescription other = best.damper;
+    other.gap = gap;
+    CAPTURE(gap);
+    CHECK(comfort_of(other, report.request) >= best.assessment.goals.front() * (1 - 1e-3));
+  }
+  CHECK(contains(report.notes.front(), "comfort is that of savaresi_spelta"));
+  CHECK(contains(report.notes.front(), "by skyhook"));
+}
+
+TEST_CASE("a constraint on comfort holds, or what could be reached is said; of a family as well" *
+          doctest::test_suite("long")) {
+  const std::string ride = "ride: {plant: savaresi_spelta, current: 0.5 A, duration: 0.3 s}\n";
+  const DesignReport held = ridden_design(
+      ride + "constraints: [{quantity: comfort, max: 10}]\ngoals: [{minimise: mass}]");
+  REQUIRE(!held.designs.empty());
+  CHECK(held.designs.front().assessment.constraints.front() < 10);
+  const DesignReport none = ridden_design(
+      ride + "constraints: [{quantity: comfort, max: 0.001}]\ngoals: [{minimise: mass}]");
+  CHECK(none.designs.empty());
+  REQUIRE(none.conflict);
+  CHECK(contains(describe(*none.conflict, none.request), "comfort at most 0.001 m/s^2"));
+
+  // A member of a family rides as the model that it is, not as a law.
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "family.json").string();
+  save_model(
+      {.model = resisting_family().with_offset(0), .domain = {-0.02, 0.02, -0.05, 0.05, 0, 1}},
+      file);
+  const DesignRequest request =
+      parse_request(kCar + ride + "goals: [{minimise: comfort}]", "r.yaml");
+  const auto family = make_design_model(file, "");
+  const DamperPhysics physics = family->evaluate(request.damper, {0.5, 0.02});
+  const double told = find_design_quantity("comfort", "")
+                          .of({request.damper, {0.5, 0.02}, physics, *family, &request});
+  CHECK_CLOSE(told, ridden_comfort(*family->model_of(request.damper), *request.ride), 1e-12, 0);
+  CHECK(told > 0);
+}
+
+TEST_CASE("a ride that cannot be is refused before the search") {
+  const auto says = [](const std::string& rest, const std::string& words) {
+    CAPTURE(rest);
+    const std::string message = message_of([&] { parse_request(kCar + rest, "request.yaml"); });
+    CAPTURE(message);
+    CHECK(contains(message, words));
+    CHECK(contains(message, "request.yaml"));
+  };
+  const std::string goal = "goals: [{minimise: comfort}]";
+  says(goal, "of no ride");
+  says("ride: {plant: savaresi_spelta}\ngoals: [{minimise: mass}]", "nothing is asked of the ride");
+  says("ride: {plant: savaresi}\n" + goal, "savaresi_spelta");
+  says("ride: {plant: dyke_spencer1996}\n" + goal, "no tyres");
+  says("ride: {plant: savaresi_spelta, controller: skyhok}\n" + goal, "skyhook");
+  says("ride: {plant: savaresi_spelta, road: iso86}\n" + goal, "iso8608");
+  says("ride: {plant: savaresi_spelta, duration: 0}\n" + goal, "more than 0");
+  says("ride: {plant: savaresi_spelta, seed: 0.5}\n" + goal, "whole number");
+  says("ride: {plants: savaresi_spelta}\n" + goal, "plant");
+}
