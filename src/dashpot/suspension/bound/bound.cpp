@@ -83,7 +83,7 @@ std::optional<double> certified_best(const Plant& plant, const SampledPlant& car
   };
 
   constexpr double kMostTimesTheMedian = 30;
-  constexpr double kPulls[] = {0, 0.003, 0.01, 0.03};
+  constexpr double kPulls[] = {0, 0.001, 0.002, 0.004, 0.007, 0.012, 0.02, 0.03};
   for (; !relaxed.path.empty(); relaxed.path.pop_back()) {
     // As they are, and with those made smaller that are many times as large as usual: they make the
     // Riccati equation stiff, but others may rely on them.

@@ -30,7 +30,7 @@ struct BoundOptions {
   double duration = 10;       ///< s
   double step = 1e-3;         ///< s, for which the optimum holds its demand
   double search_step = 4e-3;  ///< s, of the cells on which limits are sought
-  int iterations = 60;        ///< of each climb to better limits
+  int iterations = 100;       ///< of each climb to better limits
   std::vector<std::vector<double>>
       starts;  ///< shares per step that the optimum shall not fall behind
   int threads = 0;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <initializer_list>
 
 #include "dashpot/numerics/minimise.h"
 #include "dashpot/suspension/bound/limited_cost.h"
@@ -128,24 +128,30 @@ class SectorFamily final : public LimitFamily {
 
 /// Every limit of a range that ends: any coefficients, of which the constant follows, being less
 /// the least over the range's corners. That least is made smooth: -t log(sum of exp(-q / t)).
+///
+/// The unknowns are amounts of quadratics that vary over the corners without regard to each other:
+/// F^2, F v, v^2 say nearly the same there, and a climb by their own coefficients hardly moves.
 class FreeFamily final : public LimitFamily {
  public:
   FreeFamily(const ForceRange& range, double curvature)
-      : corners_(corners(range)), values_(corners_.size()) {
-    // Units in which unknowns are about 1.
-    const double speed = 0.2 * range.velocity.back();
-    const double force = std::max(std::abs(range.force(speed, 1)), 1e-6);
-    const double damping = force / speed;
-    unit_ = {curvature, curvature * damping, curvature * damping * damping, curvature * force,
-             curvature * damping * force};
-    if (range.sides.empty()) return;
-    const double spring = force / (0.2 * range.travel);
-    for (const double unit : {spring, spring * damping, spring * force})
-      unit_.push_back(curvature * unit);
+      : curvature_(curvature), terms_(range.sides.empty() ? 5 : 8) {
+    // Corners count by how usual their speed is.
+    const double usual = kUsualSpeed * range.velocity.back();
+    for (const auto [x, v, f] : corners(range)) {
+      const double all[] = {f * f, f * v, v * v, f, v, f * x, v * x, x};
+      for (std::size_t k = 0; k < terms_.size(); ++k) terms_[k].push_back(all[k]);
+      weights_.push_back(std::exp(-0.5 * v * v / (usual * usual)));
+    }
+
+    values_.resize(weights_.size());
+
+    // An amount of 1 is as large as the index's own share of a usual force.
+    const double force = std::max(std::abs(range.force(usual, 1)), 1e-6);
+    set_basis(curvature * force * force);
   }
 
   void set_smoothness(double smoothness) { smoothness_ = smoothness; }
-  std::size_t unknowns() const override { return unit_.size(); }
+  std::size_t unknowns() const override { return basis_.size() + 1; }
 
   ForceLimit limit(const double* x) const override {
     ForceLimit q = of(x);
@@ -154,56 +160,119 @@ class FreeFamily final : public LimitFamily {
   }
 
   void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const override {
-    const ForceLimit q = of(x);
     ForceLimit mean;
-    least(q, &mean);
-    for (std::size_t k = 0; k < unit_.size(); ++k) {
-      const auto one = kCoefficients[k];
-      by_x[k] = (k == 0 ? q.ff : unit_[k]) * (by_limit.*one - by_limit.one * mean.*one);
-    }
+    least(of(x), &mean);
+    const auto along = [&](const ForceLimit& direction) {
+      double sum = 0;
+      for (std::size_t k = 0; k < terms_.size(); ++k) {
+        const auto one = kCoefficients[k];
+        sum += direction.*one * (by_limit.*one - by_limit.one * mean.*one);
+      }
+      return sum;
+    };
+    const double root = std::hypot(x[0], 2 * kBend);
+    by_x[0] = -curvature_ * bent(x[0]) / root * along(square_);
+    for (std::size_t k = 0; k < basis_.size(); ++k) by_x[k + 1] = along(basis_[k]);
   }
 
   std::vector<double> unknowns_of(const ForceLimit& q) const {
-    std::vector<double> x{std::log(std::max(-q.ff / unit_[0], 1e-12))};
-    for (std::size_t k = 1; k < unit_.size(); ++k) x.push_back(q.*kCoefficients[k] / unit_[k]);
+    const double share = std::max(-q.ff / curvature_, 1e-12);
+    std::vector<double> x{share - kBend * kBend / share};
+    const std::vector<double> values = at_corners(q);
+    for (const ForceLimit& one : basis_)
+      x.push_back(covariance(values, at_corners(one)) / (size_ * size_));
     return x;
   }
 
  private:
+  static constexpr double kUsualSpeed = 0.2;  // of the greatest
+  static constexpr double kBend = 0.1;
+
+  /// Above 0 for every x, and x where that is large: the root r of r - kBend^2 / r = x. Its slope
+  /// is r / hypot(x, 2 kBend). Other than an exponential it lets small ones grow again.
+  static double bent(double x) {
+    const double root = std::hypot(x, 2 * kBend);
+    return x > 0 ? 0.5 * (x + root) : 2 * kBend * kBend / (root - x);
+  }
+
+  /// One coefficient after the other, less what those before have of it; F^2, which has a sign, the
+  /// last.
+  void set_basis(double size) {
+    size_ = size;
+    for (std::size_t k = 1; k <= terms_.size(); ++k) {
+      ForceLimit next;
+      next.*kCoefficients[k % terms_.size()] = 1;
+      const double all = variance(next);
+      for (const ForceLimit& before : basis_)
+        add(next, -covariance(at_corners(next), at_corners(before)) / (size * size), before);
+
+      // What the others say already needs no unknown of its own.
+      constexpr double kNothing = 1e-12;
+      const double own = variance(next);
+      if (k == terms_.size()) {
+        square_ = next;
+      } else if (own > kNothing * all) {
+        basis_.emplace_back();
+        add(basis_.back(), size / std::sqrt(own), next);
+      }
+    }
+  }
+
+  static void add(ForceLimit& sum, double factor, const ForceLimit& q) {
+    for (const auto one : kCoefficients) sum.*one += factor * q.*one;
+  }
   ForceLimit of(const double* x) const {
-    ForceLimit q{.ff = -unit_[0] * std::exp(x[0])};
-    for (std::size_t k = 1; k < unit_.size(); ++k) q.*kCoefficients[k] = unit_[k] * x[k];
+    ForceLimit q;
+    add(q, -curvature_ * bent(x[0]), square_);
+    for (std::size_t k = 0; k < basis_.size(); ++k) add(q, x[k + 1], basis_[k]);
     return q;
+  }
+
+  std::vector<double> at_corners(const ForceLimit& q) const {
+    std::vector<double> values(weights_.size());
+    set_values(q, values);
+    return values;
+  }
+  void set_values(const ForceLimit& q, std::vector<double>& values) const {
+    std::ranges::fill(values, 0.0);
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      const double by = q.*kCoefficients[k];
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] += by * terms_[k][i];
+    }
+  }
+  double variance(const ForceLimit& q) const {
+    const std::vector<double> values = at_corners(q);
+    return covariance(values, values);
+  }
+  double covariance(const std::vector<double>& a, const std::vector<double>& b) const {
+    double all = 0, mean_a = 0, mean_b = 0, sum = 0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      all += weights_[i];
+      mean_a += weights_[i] * a[i];
+      mean_b += weights_[i] * b[i];
+    }
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+      sum += weights_[i] * (a[i] - mean_a / all) * (b[i] - mean_b / all);
+    return sum / all;
   }
 
   /// And the mean of [F^2, F v, v^2, F, v, F x, v x, x] by the weights of the corners in it.
   double least(const ForceLimit& q, ForceLimit* mean) const {
     // The sharp least, from which the weights count so that none overflows.
-    double least = INFINITY;
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
-      values_[k] = q.at(corners_[k].displacement, corners_[k].velocity, corners_[k].force);
-      least = std::min(least, values_[k]);
-    }
+    set_values(q, values_);
+    const double least = *std::ranges::min_element(values_);
 
     // The weights of the corners; those of exp(-40) and less change nothing.
     constexpr double kNothing = 40;
     double sum = 0;
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
-      const double above = (values_[k] - least) / smoothness_;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const double above = (values_[i] - least) / smoothness_;
       if (above > kNothing) continue;
       const double weight = std::exp(-above);
       sum += weight;
       if (!mean) continue;
-
-      const auto [x, v, f] = corners_[k];
-      mean->ff += weight * f * f;
-      mean->fv += weight * f * v;
-      mean->vv += weight * v * v;
-      mean->f += weight * f;
-      mean->v += weight * v;
-      mean->fx += weight * f * x;
-      mean->vx += weight * v * x;
-      mean->x += weight * x;
+      for (std::size_t k = 0; k < terms_.size(); ++k)
+        mean->*kCoefficients[k] += weight * terms_[k][i];
     }
 
     if (mean)
@@ -211,10 +280,12 @@ class FreeFamily final : public LimitFamily {
     return least - smoothness_ * std::log(sum);
   }
 
-  std::vector<RangeCorner> corners_;
-  std::vector<double> unit_;  ///< of the coefficients, in their order
-  double smoothness_ = 1;
-  mutable std::vector<double> values_;
+  double curvature_, size_ = 1, smoothness_ = 1;
+  std::vector<std::vector<double>> terms_;  ///< by coefficient, at each corner
+  std::vector<double> weights_;             ///< of the corners
+  ForceLimit square_;                       ///< F^2 and what makes it vary by itself
+  std::vector<ForceLimit> basis_;           ///< the other ones
+  mutable std::vector<double> values_;      ///< for least()
 };
 
 LimitCourse course_of(const LimitFamily& family, const std::vector<double>& x, std::size_t block) {
@@ -291,9 +362,12 @@ struct Climb {
     for (std::size_t k = 0; k < unit.size(); ++k)
       unit[k] = 1 / std::sqrt(std::abs(gradient[k]) / mean + 0.01);
 
-    at(minimise(fall, none,
-                {.max_iterations = iterations, .function_tolerance = 1e-7, .on_iteration = {}})
-           .x);
+    // Tight: such a climb stops for a while where limits change their corners.
+    const MinimiseOptions how{.max_iterations = iterations,
+                              .function_tolerance = 1e-10,
+                              .memory = 50,
+                              .on_iteration = {}};
+    at(minimise(fall, none, how).x);
   }
 };
 
@@ -306,20 +380,22 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   const double curvature = index.comfort * by_force * by_force + index.holding;
   Dual dual(car, index, !range.sides.empty());
 
-  // Sectors that stay, then over shorter and shorter blocks, towards the edge.
-  const SectorFamily sectors(sector_limits(range));
-  if (sectors.unknowns() == 0) return {};
+  // Sectors that stay; what comes then, over shorter and shorter blocks, goes on towards the edge.
+  // Where the index does not weigh the force, steep sectors leave no minimum: these go first.
+  std::vector<ForceLimit> known = sector_limits(range);
   Climb climb{car, dual, options.size, options.iterations};
-  if (!climb.start(sectors, curvature)) return {};
+  while (!known.empty() && !climb.start(SectorFamily(known), curvature)) known.erase(known.begin());
+  if (known.empty()) return {};
+  const SectorFamily sectors(std::move(known));
   for (const double height : {1.0, 0.1, 0.01}) climb.up(sectors, height);
   Relaxation found{.path = {}, .constant = course_of(sectors, climb.x, climb.block)};
-  for (const std::size_t block : {16, 4}) {
-    climb.set_block(sectors, block * options.block);
-    for (const double height : {0.3, 0.1}) climb.up(sectors, height);
-  }
 
   // Where the range has no end, sectors are all there is.
   if (!range.ends) {
+    for (const std::size_t block : {16, 4}) {
+      climb.set_block(sectors, block * options.block);
+      for (const double height : {0.3, 0.1}) climb.up(sectors, height);
+    }
     climb.set_block(sectors, options.block);
     for (const double height : {0.1, 0.03, 0.01, 0.003}) {
       climb.up(sectors, height);
@@ -328,26 +404,23 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
     return found;
   }
 
-  // Any limits, from those sectors on.
+  // Any limits, from those that stay on. (From sectors over short blocks it arrived less far: some
+  // of these vanish.)
   FreeFamily free(range, curvature);
-  const LimitCourse start = course_of(sectors, climb.x, climb.block);
-  climb.x.clear();
-  for (const ForceLimit& limit : start.limits) {
-    const std::vector<double> x = free.unknowns_of(limit);
-    climb.x.insert(climb.x.end(), x.begin(), x.end());
-  }
-  const auto up = [&](double height) {
-    constexpr double kSmoothness = 1;
-    free.set_smoothness(kSmoothness * height * options.size);
-    climb.up(free, height);
-    found.path.push_back(course_of(free, climb.x, climb.block));
-  };
-  for (const double height : {0.3, 0.1}) up(height);
-  for (const std::size_t block : {2, 1}) {
+  climb.x = free.unknowns_of(found.constant.limits.front());
+  const auto up = [&](std::size_t block, std::initializer_list<double> heights) {
     climb.set_block(free, block * options.block);
-    for (const double height : {0.1, 0.03}) up(height);
-  }
-  for (const double height : {0.01, 0.003}) up(height);
+    for (const double height : heights) {
+      free.set_smoothness(height * options.size);
+      climb.up(free, height);
+      found.path.push_back(course_of(free, climb.x, climb.block));
+    }
+  };
+  up(16, {0.3, 0.1});
+  up(8, {0.1});
+  up(4, {0.1});
+  up(2, {0.1, 0.03});
+  up(1, {0.1, 0.03, 0.01, 0.003});
   return found;
 }
 

@@ -10,7 +10,7 @@ namespace dashpot {
 /// certified_minimum() says.
 struct RelaxationOptions {
   std::size_t block = 1;  ///< cells that share a limit in the end
-  int iterations = 60;    ///< of L-BFGS, at most, per climb
+  int iterations = 100;   ///< of L-BFGS, at most, per climb
   double size = 1;        ///< of the index on this road
 };
 
