@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
@@ -40,17 +42,83 @@ struct Candidate {
   double cost = INFINITY;
 };
 
+LawModel law_of(const Candidate& one, const PlantStart& start) {
+  return one.unknowns.model(std::span(one.x).subspan(start.plant.size(), one.unknowns.size()));
+}
+
+/// The fastest rate of its states over the drive, 1/s, at the top speed; 0 without a bound.
+double fastest_rate(const LawModel& model, const PlantStart& start) {
+  const Law& law = model.law();
+  double rate = 0;
+  std::vector<double> parameters(law.params.size());
+  for (const double drive : {start.scale.drive.low, start.scale.drive.high}) {
+    model.parameters_at(drive, parameters.data());
+    if (law.rate) rate = std::max(rate, law.rate(parameters.data(), start.scale.speed));
+  }
+  return rate;
+}
+
+/// The law as a bench would find it from the motion and force that the sensors tell without a law;
+/// none where a filter cannot follow the plant, or no fit gets on.
+std::optional<Candidate> bench_candidate(const Law& law, const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings,
+                                         const PlantCases& cases, const PlantStart& start,
+                                         const InPlantOptions& options) {
+  // A law that steps in other ways has no sharp knee; and forces are seen only through a plant of
+  // which something is expected.
+  constexpr double kWide = 100;
+  const auto is_expected = [](const PlantUnknown& one) {
+    return one.about || (one.lower > 0 && one.upper <= kWide * one.lower);
+  };
+  if (!law.step && !law.states.empty()) return {};
+  if (!std::ranges::all_of(setup.unknown, is_expected)) return {};
+
+  options.monitor.report("the law, as on a bench", 0);
+  InPlantOptions alike = options;
+  alike.asymmetric = false;
+  const std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
+  std::vector<Record> records;
+  std::shared_ptr<const DamperModel> found;
+  try {
+    records =
+        as_bench_records(setup, fitted, observe_without_law(setup, start.plant, fitted, alike));
+    found = fit_as_on_bench(law, setup, records, alike);
+  } catch (const Error&) {
+    return {};  // a start among others: what is wrong with the recordings is said elsewhere
+  }
+  if (!found) return {};
+
+  // Its numbers among all unknowns; plant and states as they start.
+  const DataScale scale = data_scale(records, setup.drive_unit);
+  Candidate one{{law, scale, setup.drive_unit, OffsetMode::Record, options.choices}, {}};
+  const PlantResiduals residuals(setup, cases, one.unknowns, start.plant, start.scale);
+  one.x = residuals.start(start.plant, start.states);
+  std::ranges::copy(one.unknowns.off_bounds(one.unknowns.of(*found->law_inside())),
+                    one.x.begin() + static_cast<std::ptrdiff_t>(start.plant.size()));
+
+  // A knee that no data could show comes of a plant that is not known yet.
+  constexpr double kMostKnees = 1e5;  // in a stroke
+  const double knees =
+      fastest_rate(law_of(one, start), start) * start.scale.stroke / start.scale.speed;
+  return knees < kMostKnees ? std::optional(one) : std::nullopt;
+}
+
 /// Starts that differ in how much of the force is the damper's, and in how soon it bends: neither
-/// is known beforehand. Behind the first of them the rest is at random.
+/// is known beforehand. Behind the first of them the rest is at random. A start from the bench
+/// stands before them, and few others then beside it.
 std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
                                   const PlantCases& cases, const PlantStart& start,
+                                  const std::optional<Candidate>& from_bench,
                                   const InPlantOptions& options) {
   constexpr struct {
     double force, stroke;
   } kSizes[] = {{1, 1}, {0.3, 1}, {1, 10}, {0.3, 10}, {3, 30}, {0.1, 1}};
+  constexpr int kFewer = 4;
   std::vector<Candidate> all;
+  if (from_bench) all.push_back(*from_bench);
+  const int others = from_bench ? options.starts / kFewer : options.starts;
   Random random(options.seed);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(options.starts); ++k) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(others); ++k) {
     const auto [force, stroke] = kSizes[k % std::size(kSizes)];
     DataScale scale = start.scale;
     scale.force *= force;
@@ -67,11 +135,12 @@ std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
 /// The most promising of them: all are fitted over a short time, where errors in the parameters
 /// have not yet driven the motions apart, the better half over a longer one, and so on.
 Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
-                     const PlantStart& start, const InPlantOptions& options) {
+                     const PlantStart& start, const std::optional<Candidate>& from_bench,
+                     const InPlantOptions& options) {
   constexpr int kIterations = 25;
   constexpr double kTolerance = 1e-4, kFirstRadius = 10;
   constexpr std::size_t kHorizons[] = {250, 700, 2500};
-  std::vector<Candidate> left = candidates(law, setup, cases, start, options);
+  std::vector<Candidate> left = candidates(law, setup, cases, start, from_bench, options);
   double done = 0;
   for (const std::size_t horizon : kHorizons) {
     options.monitor.report("starts, over " + std::to_string(horizon) + " samples", done);
@@ -96,22 +165,21 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
   return left.front();
 }
 
-/// So many steps per sample that the method, whose limit is 2.78, stays stable with the law as it
-/// starts.
-std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
-                         const PlantStart& start, const InPlantOptions& options) {
+/// So many steps per sample that Runge-Kutta, whose limit is 2.78, stays stable at this rate.
+std::size_t stable_steps(double rate, const PlantCases& cases) {
   constexpr double kStable = 2;  // fastest rate times step
-  if (!law.rate) return cases.steps;
-  const LawUnknowns unknowns(law, start.scale, setup.drive_unit, OffsetMode::Record,
-                             options.choices);
-  std::vector<double> parameters(law.params.size());
-  unknowns.model(unknowns.start()).parameters_at(start.scale.drive.high, parameters.data());
-  const double rate = law.rate(parameters.data(), start.scale.speed);
+  const double per_sample = rate * cases.all.front().driving.sample_time / kStable;
   std::size_t steps = cases.steps;
-  const double sample_time = cases.all.front().driving.sample_time;
-  while (steps < kMostSteps && rate * sample_time > kStable * static_cast<double>(steps))
-    steps *= 2;
+  while (steps <= kMostSteps && per_sample > static_cast<double>(steps)) steps *= 2;
   return steps;
+}
+
+/// The recordings for a force that goes straight over a step: one step per sample to begin with.
+PlantCases under_straight_force(const InPlantSetup& setup,
+                                const std::vector<PlantRecording>& recordings,
+                                const InPlantOptions& options) {
+  return make_cases(setup, recordings, std::max<std::size_t>(1, options.steps),
+                    PlantMethod::StraightForce);
 }
 
 /// Numbers whose profile is wanted must be among those that are fitted.
@@ -158,6 +226,42 @@ LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> 
   return solved;
 }
 
+constexpr double kStepShare = 0.05;  // of the error that is left: what half a step may change
+
+/// The fit; where the integrator's step is too long for its error, once more by the other method if
+/// that is nearer, or in twice as many. `cases` are those of the residuals.
+LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings,
+                                         const InPlantOptions& options, PlantCases& cases,
+                                         PlantResiduals& residuals, std::vector<double> x,
+                                         InPlantReport& report) {
+  // As many as the start already asks for.
+  while (cases.method == PlantMethod::StraightForce && options.steps == 0 &&
+         cases.steps < kMostSteps && residuals.step_error(x, recordings) > kStepShare)
+    cases = make_cases(setup, recordings, 2 * cases.steps, cases.method);
+
+  for (;;) {
+    LeastSquaresReport solved = solve_weighed(residuals, x, options);
+    report.iterations += solved.iterations;
+    const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
+    if (is_finite) x = solved.x;
+    report.step_error = is_finite ? residuals.step_error(x, recordings) : INFINITY;
+    const bool is_lost = !is_finite || residuals.diverges(x);
+    if (report.step_error <= kStepShare && !is_lost) return solved;
+
+    // A force that goes straight, where Runge-Kutta is lost or further from the limit.
+    const bool was_explicit = cases.method == PlantMethod::RungeKutta;
+    if (was_explicit) {
+      PlantCases before = std::move(cases);
+      cases = make_cases(setup, recordings, before.steps, PlantMethod::StraightForce);
+      if (is_lost || residuals.step_error(x, recordings) < report.step_error) continue;
+      cases = std::move(before);
+    }
+    if (!is_finite || options.steps > 0 || cases.steps >= kMostSteps) return solved;
+    cases = make_cases(setup, recordings, 2 * cases.steps, cases.method);
+  }
+}
+
 }  // namespace
 
 InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
@@ -184,12 +288,22 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   require_profiles(law, setup, start.scale, options);
 
   // The law's unknowns in the size of these data, and a start from which the fit gets on.
-  if (options.steps == 0)
-    cases = make_cases(setup, recordings, stable_steps(law, setup, cases, start, options));
-  Candidate best = best_start(law, setup, cases, start, options);
-  while (!std::isfinite(best.cost) && options.steps == 0 && cases.steps < kMostSteps) {
-    cases = make_cases(setup, recordings, 2 * cases.steps);
-    best = best_start(law, setup, cases, start, options);
+  std::optional<Candidate> from_bench =
+      bench_candidate(law, setup, recordings, cases, start, options);
+  const LawUnknowns usual(law, start.scale, setup.drive_unit, OffsetMode::Record, options.choices);
+  const double rate = fastest_rate(usual.model(usual.start()), start);
+  const double sharp = from_bench ? fastest_rate(law_of(*from_bench, start), start) : rate;
+  if (stable_steps(sharp, cases) > kMostSteps) {
+    cases = under_straight_force(setup, recordings, options);
+  } else {
+    if (!law.states.empty()) from_bench.reset();  // a smooth hysteresis: the usual starts find it
+    if (options.steps == 0)
+      cases = make_cases(setup, recordings, std::min(kMostSteps, stable_steps(rate, cases)));
+  }
+  Candidate best = best_start(law, setup, cases, start, from_bench, options);
+  if (!std::isfinite(best.cost) && cases.method == PlantMethod::RungeKutta) {
+    cases = under_straight_force(setup, recordings, options);
+    best = best_start(law, setup, cases, start, from_bench, options);
   }
   const auto& [unknowns, x, cost] = best;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
@@ -199,18 +313,10 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   const LeastSquaresReport at =
       solve(residuals.problem(0, options.threads), x, solver_options(options, 0, 1e-8));
   report.knowable = knowable_of(residuals, at.part_matrices, x.size());
+  residuals.leave_out_forgotten(at);
 
-  // The fit; where the integrator's step is too long for its error, once more with half of it.
-  constexpr double kStepShare = 0.05;
-  LeastSquaresReport solved = solve_weighed(residuals, x, options);
-  report.iterations = solved.iterations;
-  while (std::isfinite(solved.cost)) {
-    report.step_error = residuals.step_error(solved.x, recordings);
-    if (options.steps > 0 || report.step_error <= kStepShare || cases.steps >= kMostSteps) break;
-    cases = make_cases(setup, recordings, 2 * cases.steps);
-    solved = solve_weighed(residuals, solved.x, options);
-    report.iterations += solved.iterations;
-  }
+  const LeastSquaresReport solved =
+      solve_in_enough_steps(setup, recordings, options, cases, residuals, x, report);
   if (report.step_error > kStepShare)
     report.warnings.push_back("the integrator's step changes a sensor by " +
                               format_number(100 * report.step_error, 2) +

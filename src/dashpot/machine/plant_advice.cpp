@@ -245,7 +245,8 @@ std::vector<Manoeuvre> manoeuvres(const EndedFit& fit) {
 /// Information of that recording about what all share; empty where the plant diverges in it.
 Information information_of(const EndedFit& fit, const Manoeuvre& manoeuvre,
                            const std::vector<double>& per_sensor, int threads) {
-  PlantCases cases{.all = {fit.cases.all.front()}, .steps = fit.cases.steps};
+  PlantCases cases{
+      .all = {fit.cases.all.front()}, .steps = fit.cases.steps, .method = fit.cases.method};
   PlantCase& one = cases.all.front();
   for (auto* list : {&one.driving.value, &one.driving.rate})
     for (std::vector<double>& input : *list)

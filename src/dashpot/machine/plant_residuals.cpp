@@ -34,14 +34,15 @@ bool is_constant(std::span<const double> samples) {
 }  // namespace
 
 PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                      std::size_t steps) {
+                      std::size_t steps, PlantMethod method) {
   constexpr std::size_t kFirstGuess = 2, kFewest = 200;
-  PlantCases cases{.all = {}, .steps = steps > 0 ? steps : kFirstGuess};
+  PlantCases cases{.all = {}, .steps = steps > 0 ? steps : kFirstGuess, .method = method};
   for (const PlantRecording& recording : recordings) {
     PlantCase one{.name = recording.name};
     one.driving = {.sample_time = recording.sample_time,
                    .samples = recording.samples,
                    .steps = cases.steps,
+                   .method = method,
                    .value = {},
                    .rate = {},
                    .current = {}};
@@ -61,14 +62,14 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
         throw Error(recording.name + ", " + input.channel,
                     "is constant: nothing moves the plant, so that nothing can be told of it",
                     "record while the plant is shaken, pushed or driven over a road");
-      FinerSignal finer = band_limited(samples, recording.sample_time, 2 * cases.steps);
+      FinerSignal finer = band_limited(samples, recording.sample_time, one.driving.stride());
       one.driving.value.push_back(std::move(finer.value));
       one.driving.rate.push_back(std::move(finer.rate));
     }
     one.driving.current = setup.drive.empty()
                               ? std::vector<double>(one.driving.points(), setup.level)
                               : straight_lines(recording.channel(setup.drive).samples,
-                                               recording.sample_time, 2 * cases.steps)
+                                               recording.sample_time, one.driving.stride())
                                     .value;
 
     one.steady = std::ranges::minmax(one.driving.current).min ==
@@ -253,6 +254,7 @@ bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
                          Shown& shown) const {
   std::vector<double> state = state_at_first(x, place, plant.size(), damper);
+  if (one.driving.method == PlantMethod::StraightForce) plant.settle(damper, one.driving, state);
   if (!plant.run(damper, one.driving, samples, sensors, state, shown)) return false;
 
   // What a late sensor shows is older.
@@ -360,6 +362,16 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
     }
   problem.lower = lower_;
   problem.upper = upper_;
+
+  // The damper's states at a beginning, which a sharp hysteresis forgets, do not run away.
+  constexpr double kMost = 3;  // in the size of the damper's motion
+  for (std::size_t k = first_state_; k < first_delay_ && keeps_states_near(); ++k)
+    if (is_of_damper(k)) {
+      problem.lower[k] = -kMost;
+      problem.upper[k] = kMost;
+    }
+  for (const std::size_t k : forgotten_) problem.lower[k] = problem.upper[k] = 0;
+
   problem.residual = [this, samples](std::span<const double> x, std::span<double> r) {
     return evaluate(x, samples, r);
   };
@@ -368,6 +380,24 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
     return jacobian(x, samples, r, columns, threads);
   };
   return problem;
+}
+
+bool PlantResiduals::keeps_states_near() const {
+  return cases_->method == PlantMethod::StraightForce;
+}
+
+bool PlantResiduals::is_of_damper(std::size_t state) const {
+  return (state - first_state_) % states() >= 2 * coordinates_;
+}
+
+void PlantResiduals::leave_out_forgotten(const LeastSquaresReport& at) {
+  constexpr double kFelt = 30;  // scales of a sensor, by all residuals together
+  forgotten_.clear();
+  for (std::size_t k = first_state_; k < first_delay_ && keeps_states_near(); ++k) {
+    double square = 0;
+    for (const std::vector<double>& part : at.part_matrices) square += part[k * (size_.size() + 1)];
+    if (is_of_damper(k) && square < kFelt * kFelt) forgotten_.push_back(k);
+  }
 }
 
 double PlantResiduals::reweigh(std::span<const double> x) {
@@ -426,7 +456,7 @@ PlantResiduals::Shown PlantResiduals::other_sensors(
 
 double PlantResiduals::step_error(std::span<const double> x,
                                   const std::vector<PlantRecording>& recordings) const {
-  const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps);
+  const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps, cases_->method);
   const DrivenPlant plant = equations(x);
   const LawModel model = damper(x);
   double worst = 0;
@@ -452,6 +482,17 @@ double PlantResiduals::step_error(std::span<const double> x,
   return worst;
 }
 
+bool PlantResiduals::diverges(std::span<const double> x) const {
+  const DrivenPlant plant = equations(x);
+  const LawModel model = damper(x);
+  Shown shown;
+  for (std::size_t c = 0; c < cases_->all.size(); ++c) {
+    const PlantCase& one = cases_->all[c];
+    if (!run(x, plant, model, one, c, one.driving.samples, sensors_, shown)) return true;
+  }
+  return false;
+}
+
 void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigures>& figures,
                               std::vector<InPlantTrace>& traces) const {
   // Beside the sensors, the damper's own motion and force.
@@ -464,7 +505,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
   const LawModel model = damper(x);
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const PlantCase& one = cases_->all[c];
-    const std::size_t count = one.driving.samples, steps = one.driving.steps;
+    const std::size_t count = one.driving.samples, stride = one.driving.stride();
     InPlantTrace trace{.recording = one.name,
                        .sample_time = one.driving.sample_time,
                        .training = one.training,
@@ -498,7 +539,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
     trace.velocity = shown[sensors_.size() + 1];
     trace.force = shown[sensors_.size() + 2];
     for (std::size_t k = 0; k < count; ++k)
-      trace.current.push_back(one.driving.current[2 * steps * k]);
+      trace.current.push_back(one.driving.current[stride * k]);
     trace.modelled.assign(shown.begin(), shown.begin() + last);
     traces.push_back(std::move(trace));
   }

@@ -26,12 +26,13 @@ struct PlantCase {
 struct PlantCases {
   std::vector<PlantCase> all;
   std::size_t steps = 1;  ///< of the integrator per sample
+  PlantMethod method = PlantMethod::RungeKutta;
 };
 
 /// steps: of the integrator per sample; 0: a first guess. Inputs are band-limited between samples,
 /// the current goes straight. Throws Error at an input that is constant, at a recording too short.
 PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                      std::size_t steps);
+                      std::size_t steps, PlantMethod method = PlantMethod::RungeKutta);
 
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
@@ -57,6 +58,10 @@ class PlantResiduals : public InPlantUnknowns {
   /// Takes the rms that is left at each sensor as its scale where no noise was stated; returns the
   /// largest relative change, 0 where there is only one sensor.
   double reweigh(std::span<const double> x);
+  /// From now on a state of the damper at a beginning is 0 where its whole size hardly moves the
+  /// sensors at the end of this search: a sharp hysteresis has forgotten it at once. For a force
+  /// that goes straight alone.
+  void leave_out_forgotten(const LeastSquaresReport& at);
   Covariance covariance_at(const LeastSquaresReport& solved) const;
 
   std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
@@ -77,6 +82,8 @@ class PlantResiduals : public InPlantUnknowns {
 
   /// What half the step changes at the sensors, rms over rms error; the worst sensor.
   double step_error(std::span<const double> x, const std::vector<PlantRecording>& recordings) const;
+  /// Whether the plant diverges in a recording, with the time that is held back.
+  bool diverges(std::span<const double> x) const;
   /// Figures and samples of every sensor over whole recordings, in free run.
   void describe(std::span<const double> x, std::vector<SensorFigures>& figures,
                 std::vector<InPlantTrace>& traces) const;
@@ -97,6 +104,8 @@ class PlantResiduals : public InPlantUnknowns {
   bool difference(std::span<const double> x, std::size_t samples, std::span<const double> r,
                   std::size_t k, std::span<double> column) const;
   std::size_t part_of(std::size_t place, std::size_t samples) const;
+  bool keeps_states_near() const;
+  bool is_of_damper(std::size_t state) const;
   std::size_t states() const { return state_size_.size(); }
 
   const InPlantSetup* setup_;
@@ -110,6 +119,7 @@ class PlantResiduals : public InPlantUnknowns {
   std::vector<std::size_t> delays_;  ///< sensors whose delay is an unknown
   std::size_t first_state_ = 0, first_delay_ = 0;  ///< places among the unknowns
   std::vector<double> size_, lower_, upper_;
+  std::vector<std::size_t> forgotten_;  ///< unknowns that are left out
 };
 
 }  // namespace dashpot

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dashpot/error.h"
+#include "dashpot/machine/plant_step.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/plants/linear.h"
 
@@ -103,22 +104,35 @@ DamperInput DrivenPlant::damper_input(const PlantDriving& driving, std::size_t p
   return at;
 }
 
-/// The rates of all states at a point in time; returns the damper's force.
-double DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
-                          const double* state, double* out) const {
-  const std::size_t own = damper.state_size();
-  const double force = damper.flow(damper_input(driving, point, state), {state + 2 * size_, own},
-                                   {out + 2 * size_, own});
+void DrivenPlant::accelerations(const PlantDriving& driving, std::size_t point, const double* state,
+                                double force, double* out) const {
   for (std::size_t i = 0; i < size_; ++i) {
     double sum = -by_force_[i] * force;
     for (std::size_t k = 0; k < size_; ++k)
       sum -= damping_[i * size_ + k] * state[size_ + k] + stiffness_[i * size_ + k] * state[k];
     for (std::size_t u = 0; u < by_value_.size(); ++u)
       sum += by_value_[u][i] * driving.value[u][point] + by_rate_[u][i] * driving.rate[u][point];
-    out[i] = state[size_ + i];
-    out[size_ + i] = sum;
+    out[i] = sum;
   }
+}
+
+/// The rates of all states at a point in time; returns the damper's force.
+double DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
+                          const double* state, double* out) const {
+  const std::size_t own = damper.state_size();
+  const double force = damper.flow(damper_input(driving, point, state), {state + 2 * size_, own},
+                                   {out + 2 * size_, own});
+  std::copy_n(state + size_, size_, out);
+  accelerations(driving, point, state, force, out + size_);
   return force;
+}
+
+void DrivenPlant::settle(const DamperModel& damper, const PlantDriving& driving,
+                         std::span<double> state) const {
+  const DamperInput first = damper_input(driving, 0, state.data());
+  DamperInput before = first;
+  before.displacement -= driving.sample_time * first.velocity;
+  damper.advance(before, first, driving.sample_time, state.subspan(2 * size_));
 }
 
 double DrivenPlant::stiffness_along() const {
@@ -129,68 +143,118 @@ double DrivenPlant::stiffness_along() const {
   return mass * mass * along(row_, pulled.data());
 }
 
+/// What the sensors show at a sample; whether all of it is finite.
+bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
+                       std::span<const PlantSensorPlace> sensors, const double* state,
+                       const double* acceleration, double force,
+                       std::vector<std::vector<double>>& shown) const {
+  const std::size_t point = sample * driving.stride();
+  const DamperInput at = damper_input(driving, point, state);
+  bool finite = true;
+  for (std::size_t s = 0; s < sensors.size(); ++s) {
+    const std::size_t q = sensors[s].coordinate;
+    double value = 0;
+    switch (sensors[s].quantity) {
+      case PlantQuantity::Displacement:
+        value = state[q];
+        break;
+      case PlantQuantity::Velocity:
+        value = state[size_ + q];
+        break;
+      case PlantQuantity::Acceleration:
+        // What an input that changes by leaps carries along comes on top of the state's rate.
+        value = acceleration[q];
+        for (std::size_t u = 0; u < carried_.size(); ++u)
+          value += carried_[u][q] * driving.value[u][point];
+        break;
+      case PlantQuantity::Deflection:
+        value = at.displacement;
+        break;
+      case PlantQuantity::DeflectionVelocity:
+        value = at.velocity;
+        break;
+      case PlantQuantity::DamperForce:
+        value = force;
+        break;
+    }
+    finite &= std::isfinite(value);
+    shown[s][sample] = value;
+  }
+  return finite;
+}
+
 bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
                       std::span<const PlantSensorPlace> sensors, std::span<double> state,
                       std::vector<std::vector<double>>& shown) const {
+  shown.assign(sensors.size(), std::vector<double>(samples));
+  return driving.method == PlantMethod::RungeKutta
+             ? run_by_runge_kutta(damper, driving, samples, sensors, state, shown)
+             : run_under_straight_force(damper, driving, samples, sensors, state, shown);
+}
+
+bool DrivenPlant::run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,
+                                     std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                                     std::span<double> state,
+                                     std::vector<std::vector<double>>& shown) const {
   using States = std::array<double, kMostStates>;
   const std::size_t count = 2 * size_ + damper.state_size();
   const double h = driving.sample_time / static_cast<double>(driving.steps);
-  shown.assign(sensors.size(), std::vector<double>(samples));
   States first, second, third, fourth, between;
-
-  // What the sensors show at a sample, whose rates are known.
-  const auto show = [&](std::size_t sample, std::size_t point, double force) {
-    const DamperInput at = damper_input(driving, point, state.data());
-    bool finite = true;
-
-    for (std::size_t s = 0; s < sensors.size(); ++s) {
-      const std::size_t q = sensors[s].coordinate;
-      double value = 0;
-      switch (sensors[s].quantity) {
-        case PlantQuantity::Displacement:
-          value = state[q];
-          break;
-        case PlantQuantity::Velocity:
-          value = state[size_ + q];
-          break;
-        case PlantQuantity::Acceleration:
-          // What an input that changes by leaps carries along comes on top of the state's rate.
-          value = first[size_ + q];
-          for (std::size_t u = 0; u < carried_.size(); ++u)
-            value += carried_[u][q] * driving.value[u][point];
-          break;
-        case PlantQuantity::Deflection:
-          value = at.displacement;
-          break;
-        case PlantQuantity::DeflectionVelocity:
-          value = at.velocity;
-          break;
-        case PlantQuantity::DamperForce:
-          value = force;
-          break;
-      }
-      finite &= std::isfinite(value);
-      shown[s][sample] = value;
-    }
-    return finite;
-  };
   const auto moved = [&](const States& rate, double length) {
     for (std::size_t k = 0; k < count; ++k) between[k] = state[k] + length * rate[k];
     return between.data();
   };
 
-  // Classical Runge-Kutta: the inputs are known at the start, middle and end of every step.
+  // The inputs are known at the start, middle and end of every step.
   for (std::size_t point = 0, step = 0;; point += 2, ++step) {
     const double force = rates(damper, driving, point, state.data(), first.data());
     if (step % driving.steps == 0) {
-      if (!show(step / driving.steps, point, force)) return false;
-      if (step / driving.steps + 1 == samples) return true;
+      const std::size_t sample = step / driving.steps;
+      if (!show(driving, sample, sensors, state.data(), first.data() + size_, force, shown))
+        return false;
+      if (sample + 1 == samples) return true;
     }
     rates(damper, driving, point + 1, moved(first, h / 2), second.data());
     rates(damper, driving, point + 1, moved(second, h / 2), third.data());
     rates(damper, driving, point + 2, moved(third, h), fourth.data());
     for (std::size_t k = 0; k < count; ++k)
       state[k] += h / 6 * (first[k] + 2 * (second[k] + third[k]) + fourth[k]);
+  }
+}
+
+bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
+                                           std::size_t samples,
+                                           std::span<const PlantSensorPlace> sensors,
+                                           std::span<double> state,
+                                           std::vector<std::vector<double>>& shown) const {
+  const double h = driving.sample_time / static_cast<double>(driving.steps);
+  const PlantStep plant({size_, damping_, stiffness_, by_force_, by_value_, by_rate_}, h);
+  DamperStep step(damper, h);
+  std::array<double, kMostStates> end, acceleration;
+  const std::span<double> own = state.subspan(2 * size_);
+  DamperInput from = damper_input(driving, 0, state.data());
+  double force = damper.force(from, own);
+
+  for (std::size_t point = 0;; ++point) {
+    if (point % driving.steps == 0) {
+      const std::size_t sample = point / driving.steps;
+      accelerations(driving, point, state.data(), force, acceleration.data());
+      if (!show(driving, sample, sensors, state.data(), acceleration.data(), force, shown))
+        return false;
+      if (sample + 1 == samples) return true;
+    }
+
+    // Where the plant ends without a force at the end, and what each newton there adds.
+    plant.end_without_force({driving.value, driving.rate}, point, state.data(), force, end.data());
+    const DamperInput without = damper_input(driving, point + 1, end.data());
+    const std::vector<double>& per_newton = plant.by_end_force();
+    const double moves = along(row_, per_newton.data());
+    const double hastens = along(row_, per_newton.data() + size_);
+
+    // The force that the damper has after the motion which that force makes.
+    force = step.end_force({from, without, moves, hastens, force}, own);
+    for (std::size_t k = 0; k < 2 * size_; ++k) state[k] = end[k] + per_newton[k] * force;
+    from = damper_input(driving, point + 1, state.data());
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace dashpot {
 
-// A linear plant with one damper in it, run under measured inputs by the classical Runge-Kutta
-// method, several steps per sample. What is not linear in it is the damper alone.
+// A linear plant with one damper in it, run under measured inputs, several steps per sample. What
+// is not linear in it is the damper alone.
 
 /// What moves a plant from outside.
 enum class PlantInput {
@@ -44,15 +44,32 @@ struct PlantSensorPlace {
   std::size_t coordinate = 0;
 };
 
-/// The inputs at every instant that the integrator asks for: 2 `steps` points per sample. Each
-/// input has a value and a rate there; the drive of the damper stands beside them.
+/// How plant and damper are brought over a step.
+enum class PlantMethod {
+  /// The classical Runge-Kutta method for both together: of fourth order, and unstable where the
+  /// damper is stiff.
+  RungeKutta,
+  /// The plant exactly under a force that goes straight over the step, the damper by its own step
+  /// along the motion that this makes, and the force at the end such that both agree: of second
+  /// order, and stable however stiff the damper is (plant_step.h).
+  StraightForce
+};
+
+/// The inputs at every instant that the integrator asks for. Each input has a value and a rate
+/// there; the drive of the damper stands beside them.
 struct PlantDriving {
   double sample_time = 0;
-  std::size_t samples = 0, steps = 1;
+  std::size_t samples = 0, steps = 1;  ///< steps: of the integrator per sample
+  PlantMethod method = PlantMethod::RungeKutta;
   std::vector<std::vector<double>> value, rate;  ///< per input, per point
   std::vector<double> current;                   ///< A or V, per point
 
-  std::size_t points() const { return (samples - 1) * 2 * steps + 1; }
+  /// Points per sample: Runge-Kutta asks in the middle of each step too.
+  std::size_t stride() const { return points_per_sample(steps, method); }
+  std::size_t points() const { return (samples - 1) * stride() + 1; }
+  static std::size_t points_per_sample(std::size_t steps, PlantMethod method) {
+    return method == PlantMethod::RungeKutta ? 2 * steps : steps;
+  }
 };
 
 /// The plant as numbers: q'' = forcing - C q' - K q - row F, all by the inverse of the mass.
@@ -65,12 +82,16 @@ class DrivenPlant {
 
   std::size_t size() const { return size_; }
 
-  /// Runs the plant from `state` (q, q', states of the damper, which flows) over the first so many
-  /// samples; `state` is then that at the last of them. Per sensor `shown` gets the samples. False
-  /// where one of them is not finite.
+  /// Runs the plant from `state` (q, q', states of the damper) over the first so many samples;
+  /// `state` is then that at the last of them. Per sensor `shown` gets the samples. False where one
+  /// of them is not finite. By Runge-Kutta the damper must be one that flows.
   bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, std::span<double> state,
            std::vector<std::vector<double>>& shown) const;
+  /// Brings the states of the damper over the sample before the first one, at the velocity of that:
+  /// what a sharp hysteresis forgets at once is then no leap within the first step.
+  void settle(const DamperModel& damper, const PlantDriving& driving,
+              std::span<double> state) const;
   /// Stiffness along the damper's way, N/m: of the plant alone; and the mass that it moves, kg.
   double stiffness_along() const;
   double mass_along() const { return 1 / along(row_, by_force_.data()); }
@@ -89,6 +110,19 @@ class DrivenPlant {
   const std::vector<double>& on_ground() const { return on_ground_; }
 
  private:
+  bool run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,
+                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                          std::span<double> state, std::vector<std::vector<double>>& shown) const;
+  bool run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
+                                std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                                std::span<double> state,
+                                std::vector<std::vector<double>>& shown) const;
+  void accelerations(const PlantDriving& driving, std::size_t point, const double* state,
+                     double force, double* out) const;
+  bool show(const PlantDriving& driving, std::size_t sample,
+            std::span<const PlantSensorPlace> sensors, const double* state,
+            const double* acceleration, double force,
+            std::vector<std::vector<double>>& shown) const;
   double rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
                const double* state, double* out) const;
   DamperInput damper_input(const PlantDriving& driving, std::size_t point,

@@ -41,7 +41,7 @@ std::vector<double> oscillator_regression(const PlantCase& one, std::size_t inpu
 
   // The same low-pass on both sides leaves the equation as it is.
   const double dt = one.driving.sample_time;
-  const std::size_t count = one.training, stride = 2 * one.driving.steps;
+  const std::size_t count = one.training, stride = one.driving.stride();
   const std::span<const double> shown(one.measured[sensor].data(), count);
   std::vector<double> pushed(count);
   for (std::size_t k = 0; k < count; ++k) pushed[k] = one.driving.value[input][k * stride];

@@ -11,7 +11,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/error.h"
-#include "dashpot/identify.h"
+#include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_start.h"
 #include "dashpot/machine/spectral_likelihood.h"
@@ -19,24 +19,6 @@
 
 namespace dashpot {
 namespace {
-
-constexpr double kSettled = 0.2;  // s of each recording that a filter needs at first
-
-/// The samples of a recording from `first` up to `end`.
-PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end) {
-  PlantRecording part = recording;
-  part.samples = end - first;
-  for (Channel& channel : part.channels)
-    channel.samples.assign(
-        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(first),
-        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(end));
-  return part;
-}
-
-/// Samples of a recording that are fitted; those behind them judge the result.
-std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording) {
-  return static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
-}
 
 /// Of motions alone only ratios of masses, stiffnesses and forces can be told.
 bool knows_a_force(const InPlantSetup& setup) {
@@ -73,7 +55,7 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
   constexpr std::size_t kFewest = 500;
   for (const PlantRecording& recording : recordings) {
     const auto first =
-        static_cast<std::size_t>(std::max(kSettled, setup.skip) / recording.sample_time);
+        static_cast<std::size_t>(std::max(kFilterSettles, setup.skip) / recording.sample_time);
     const std::size_t fitted = fitted_samples(setup, recording);
     if (fitted < kFewest + first)
       throw Error(recording.name, "leaves " + std::to_string(fitted) + " samples to fit",
@@ -98,35 +80,6 @@ struct Task {
   std::vector<PlantRecording> fitted;  ///< what may be fitted of each recording
   std::vector<double> plant;           ///< where the plant's unknowns start, SI
 };
-
-/// Motion and force of the damper, as observed, as a bench would have recorded them.
-Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recording,
-                       const ObservedRecording& observed) {
-  Record record{.name = recording.name, .source = recording.name, .condition = recording.name};
-  record.sample_time = recording.sample_time;
-  for (std::size_t k = 0; k < recording.samples; ++k)
-    record.time.push_back(recording.sample_time * static_cast<double>(k));
-
-  // What was observed, then the drive: its channel, or one level.
-  const char* const names[] = {"force", "displacement", "velocity"};
-  for (std::size_t q = 0; q < 3; ++q)
-    record.channels.push_back({.name = names[q],
-                               .unit = observed.quantities[q].unit,
-                               .samples = observed.quantities[q].value,
-                               .origin = "observed"});
-  if (setup.drive_unit != DriveUnit::None) {
-    record.channels.push_back({.name = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current",
-                               .unit = to_string(setup.drive_unit),
-                               .samples = setup.drive.empty()
-                                              ? std::vector<double>(recording.samples, setup.level)
-                                              : recording.channel(setup.drive).samples,
-                               .origin = "as recorded"});
-    const auto [low, high] = std::ranges::minmax(record.channels.back().samples);
-    if (low == high) record.drive_level = low;
-  }
-  record.warm_up = static_cast<std::size_t>(kSettled / recording.sample_time);
-  return record;
-}
 
 /// The domain of the damper's motion in these records.
 Domain domain_of(const InPlantSetup& setup, const std::vector<Record>& records) {
@@ -159,50 +112,6 @@ std::vector<DamperInput> motion_of(const InPlantSetup& setup, const PlantRecordi
         {observed.quantities[1].value[k], observed.quantities[2].value[k],
          setup.drive.empty() ? setup.level : recording.channel(setup.drive).samples[k]});
   return motion;
-}
-
-/// A dashpot in the damper's place.
-LawModel dashpot_model(double damping) {
-  const Law& law = find_law("tanh_kwok");
-  std::vector<double> parameters(law.params.size(), 0.0);
-  parameters[law.index_of("c")] = damping;
-  parameters[law.index_of("beta")] = 1;
-  return LawModel::constant(law, parameters);
-}
-
-/// The plant as it starts, with a dashpot and large errors of its force in the damper's place: what
-/// the sensors alone tell of motion and force.
-ObserveReport without_law(const Task& task) {
-  InPlantSetup setup = task.setup;
-  for (std::size_t k = 0; k < task.plant.size(); ++k)
-    setup.known.emplace_back(setup.unknown[k].name, task.plant[k]);
-  setup.unknown.clear();
-  std::vector<PlantInputPlace> inputs;
-  for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const DrivenPlant equations(make_plant(*setup.model, setup.known), setup.strut, inputs);
-  const auto dashpot = std::make_shared<LawModel>(dashpot_model(usual_dashpot(equations)));
-  const Domain domain = usual_domain(0, 0);
-  const double force = observer_scale(*dashpot, domain).force;
-  return observe(dashpot, domain, setup, task.fitted,
-                 {.force = {{force, 0.02}, {force, 0.3}},
-                  .steps = 1,
-                  .threads = task.options.threads,
-                  .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
-}
-
-/// The law as a bench would find it from what was told, its sides apart where that was asked for
-/// and pays; nothing where no fit gets on.
-std::shared_ptr<const DamperModel> bench_fit(const Task& task, const std::vector<Record>& records) {
-  if (!is_law(task.law.name)) return nullptr;
-  const FitReport fit =
-      identify(std::string(task.law.name), records, task.setup.drive_unit,
-               {.choices = task.options.choices,
-                .allow_active = true,
-                .asymmetric = task.options.asymmetric,
-                .seed = task.options.seed,
-                .threads = task.options.threads,
-                .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
-  return fit.model && fit.model->law_inside() ? fit.model : nullptr;
 }
 
 /// The inverse of the information between the scores' own products, where there are enough of them.
@@ -368,20 +277,16 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   const auto [low, high] = drive_range(setup, recordings);
   require_drive(law, setup, low, high, options, report.warnings);
   Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings)};
-  for (const PlantRecording& recording : recordings)
-    task.fitted.push_back(part_of(recording,
-                                  static_cast<std::size_t>(setup.skip / recording.sample_time),
-                                  fitted_samples(setup, recording)));
+  task.fitted = fitted_parts(setup, recordings);
 
   // The damper's motion and force without the law, and the law as a bench would find it.
   options.monitor.report("motion and force of the damper, without the law", 0);
-  ObserveReport observed = without_law(task);
-  std::vector<Record> records;
-  for (std::size_t r = 0; r < task.fitted.size(); ++r)
-    records.push_back(as_bench_record(setup, task.fitted[r], observed.recordings[r]));
+  ObserveReport observed = observe_without_law(setup, task.plant, task.fitted, options);
+  const std::vector<Record> records = as_bench_records(setup, task.fitted, observed);
   options.monitor.report("the law, as on a bench", 0.2);
   const DataScale size = data_scale(records, setup.drive_unit);
-  const std::shared_ptr<const DamperModel> from_bench = bench_fit(task, records);
+  const std::shared_ptr<const DamperModel> from_bench =
+      fit_as_on_bench(law, setup, records, options);
   const LawUnknowns unknowns(from_bench ? from_bench->law_inside()->law() : law, size,
                              setup.drive_unit, OffsetMode::Record, options.choices);
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);

@@ -1,0 +1,117 @@
+#include "dashpot/machine/bench_start.h"
+
+#include <algorithm>
+
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/identify.h"
+#include "dashpot/machine/plant_start.h"
+
+namespace dashpot {
+namespace {
+
+/// A dashpot in the damper's place.
+LawModel dashpot_model(double damping) {
+  const Law& law = find_law("tanh_kwok");
+  std::vector<double> parameters(law.params.size(), 0.0);
+  parameters[law.index_of("c")] = damping;
+  parameters[law.index_of("beta")] = 1;
+  return LawModel::constant(law, parameters);
+}
+
+Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recording,
+                       const ObservedRecording& observed) {
+  Record record{.name = recording.name, .source = recording.name, .condition = recording.name};
+  record.sample_time = recording.sample_time;
+  for (std::size_t k = 0; k < recording.samples; ++k)
+    record.time.push_back(recording.sample_time * static_cast<double>(k));
+
+  // What was observed, then the drive: its channel, or one level.
+  const char* const names[] = {"force", "displacement", "velocity"};
+  for (std::size_t q = 0; q < 3; ++q)
+    record.channels.push_back({.name = names[q],
+                               .unit = observed.quantities[q].unit,
+                               .samples = observed.quantities[q].value,
+                               .origin = "observed"});
+  if (setup.drive_unit != DriveUnit::None) {
+    record.channels.push_back({.name = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current",
+                               .unit = to_string(setup.drive_unit),
+                               .samples = setup.drive.empty()
+                                              ? std::vector<double>(recording.samples, setup.level)
+                                              : recording.channel(setup.drive).samples,
+                               .origin = "as recorded"});
+    const auto [low, high] = std::ranges::minmax(record.channels.back().samples);
+    if (low == high) record.drive_level = low;
+  }
+  record.warm_up = static_cast<std::size_t>(kFilterSettles / recording.sample_time);
+  return record;
+}
+
+}  // namespace
+
+PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end) {
+  PlantRecording part = recording;
+  part.samples = end - first;
+  for (Channel& channel : part.channels)
+    channel.samples.assign(
+        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(first),
+        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
+}
+
+std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording) {
+  return static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
+}
+
+std::vector<PlantRecording> fitted_parts(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings) {
+  std::vector<PlantRecording> parts;
+  for (const PlantRecording& recording : recordings)
+    parts.push_back(part_of(recording, static_cast<std::size_t>(setup.skip / recording.sample_time),
+                            fitted_samples(setup, recording)));
+  return parts;
+}
+
+std::vector<Record> as_bench_records(const InPlantSetup& setup,
+                                     const std::vector<PlantRecording>& fitted,
+                                     const ObserveReport& observed) {
+  std::vector<Record> records;
+  for (std::size_t r = 0; r < fitted.size(); ++r)
+    records.push_back(as_bench_record(setup, fitted[r], observed.recordings[r]));
+  return records;
+}
+
+ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>& plant,
+                                  const std::vector<PlantRecording>& fitted,
+                                  const InPlantOptions& options) {
+  for (std::size_t k = 0; k < plant.size(); ++k)
+    setup.known.emplace_back(setup.unknown[k].name, plant[k]);
+  setup.unknown.clear();
+  std::vector<PlantInputPlace> inputs;
+  for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
+  const DrivenPlant equations(make_plant(*setup.model, setup.known), setup.strut, inputs);
+  const auto dashpot = std::make_shared<LawModel>(dashpot_model(usual_dashpot(equations)));
+  const Domain domain = usual_domain(0, 0);
+  const double force = observer_scale(*dashpot, domain).force;
+  return observe(dashpot, domain, setup, fitted,
+                 {.force = {{force, 0.02}, {force, 0.3}},
+                  .steps = 1,
+                  .threads = options.threads,
+                  .monitor = {.on_progress = {}, .stop = options.monitor.stop}});
+}
+
+std::shared_ptr<const DamperModel> fit_as_on_bench(const Law& law, const InPlantSetup& setup,
+                                                   const std::vector<Record>& records,
+                                                   const InPlantOptions& options) {
+  if (!is_law(law.name)) return nullptr;
+  const FitReport fit = identify(std::string(law.name), records, setup.drive_unit,
+                                 {.choices = options.choices,
+                                  .allow_active = true,
+                                  .asymmetric = options.asymmetric,
+                                  .seed = options.seed,
+                                  .threads = options.threads,
+                                  .monitor = {.on_progress = {}, .stop = options.monitor.stop}});
+  return fit.model && fit.model->law_inside() ? fit.model : nullptr;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/observe.h"
+#include "dashpot/record.h"
+
+namespace dashpot {
+
+struct Law;
+
+// Where the fit of a law inside a plant begins: what the sensors tell of the damper's motion and
+// force without any law, and the law as a bench would find it from that.
+
+/// A filter's time until it has forgotten where it began, s.
+inline constexpr double kFilterSettles = 0.2;
+
+/// The part of each recording that may be fitted, behind what is skipped.
+std::vector<PlantRecording> fitted_parts(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings);
+/// The samples of a recording from `first` up to `end`.
+PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end);
+/// Samples of a recording that are fitted, from the first one on; those behind judge the result.
+std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording);
+
+/// The plant with these numbers as its unknowns (SI), and a dashpot and large errors of its force
+/// in the damper's place. Throws Error as observe() does.
+ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>& plant,
+                                  const std::vector<PlantRecording>& fitted,
+                                  const InPlantOptions& options);
+
+/// Motion and force of the damper, as observed, as a bench would have recorded them.
+std::vector<Record> as_bench_records(const InPlantSetup& setup,
+                                     const std::vector<PlantRecording>& fitted,
+                                     const ObserveReport& observed);
+
+/// The law as a bench would find it from these, its sides apart where that is asked for and pays;
+/// null where no fit gets on, and for a law that is in no list.
+std::shared_ptr<const DamperModel> fit_as_on_bench(const Law& law, const InPlantSetup& setup,
+                                                   const std::vector<Record>& records,
+                                                   const InPlantOptions& options);
+
+}  // namespace dashpot

@@ -1,0 +1,170 @@
+#include "dashpot/machine/plant_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/numerics/linear_algebra.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kCubic = 4;  // coefficients
+
+/// exp of the plant's rates over a step, count x count at the top left of a matrix that has, beside
+/// it, what a push of t^k / (k! length^k) along `push` (n, an acceleration) does, k = 0 ... 3.
+std::vector<double> response_of(const PlantNumbers& plant, const std::vector<double>& push,
+                                double length) {
+  const std::size_t n = plant.size, size = 2 * n + kCubic;
+  std::vector<double> rates(size * size);
+  for (std::size_t i = 0; i < n; ++i) {
+    rates[i * size + n + i] = length;
+    for (std::size_t k = 0; k < n; ++k) {
+      rates[(n + i) * size + k] = -length * plant.stiffness[i * n + k];
+      rates[(n + i) * size + n + k] = -length * plant.damping[i * n + k];
+    }
+    rates[(n + i) * size + 2 * n] = length * push[i];
+  }
+  for (std::size_t k = 0; k + 1 < kCubic; ++k) rates[(2 * n + k) * size + 2 * n + k + 1] = 1;
+  return exponential(rates, size);
+}
+
+/// The columns beside the plant's, count x 4.
+std::vector<double> beside(const std::vector<double>& response, std::size_t count) {
+  std::vector<double> columns(count * kCubic);
+  for (std::size_t i = 0; i < count; ++i)
+    std::copy_n(response.data() + i * (count + kCubic) + count, kCubic,
+                columns.data() + i * kCubic);
+  return columns;
+}
+
+}  // namespace
+
+PlantStep::PlantStep(const PlantNumbers& plant, double length)
+    : count_(2 * plant.size), length_(length), free_(count_ * count_) {
+  // The damper's force, which resists: its value at the start, and its change until the end.
+  std::vector<double> push = plant.by_force;
+  for (double& value : push) value = -value;
+  const std::vector<double> response = response_of(plant, push, length);
+  const std::vector<double> forced = beside(response, count_);
+  for (std::size_t i = 0; i < count_; ++i) {
+    std::copy_n(response.data() + i * (count_ + kCubic), count_, free_.data() + i * count_);
+    by_end_force_.push_back(forced[i * kCubic + 1]);
+    by_force_.push_back(forced[i * kCubic] - forced[i * kCubic + 1]);
+  }
+
+  // An input pushes by its value, and by its rate, whose coefficients are those of one power more.
+  for (std::size_t u = 0; u < plant.by_value.size(); ++u) {
+    std::vector<double> by_input = beside(response_of(plant, plant.by_value[u], length), count_);
+    const std::vector<double> by_rate =
+        beside(response_of(plant, plant.by_rate[u], length), count_);
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t k = 1; k < kCubic; ++k)
+        by_input[i * kCubic + k] += by_rate[i * kCubic + k - 1] / length;
+    by_input_.push_back(std::move(by_input));
+  }
+}
+
+void PlantStep::end_without_force(const PlantInputSamples& inputs, std::size_t point,
+                                  const double* state, double force, double* end) const {
+  for (std::size_t i = 0; i < count_; ++i) {
+    double sum = by_force_[i] * force;
+    for (std::size_t k = 0; k < count_; ++k) sum += free_[i * count_ + k] * state[k];
+    end[i] = sum;
+  }
+  for (std::size_t u = 0; u < by_input_.size(); ++u) {
+    // Hermite's cubic; each coefficient times the factorial of its power.
+    const double first = inputs.value[u][point];
+    const double change = inputs.value[u][point + 1] - first;
+    const double rate = length_ * inputs.rate[u][point];
+    const double end_rate = length_ * inputs.rate[u][point + 1];
+    const double cubic[kCubic] = {first, rate, 2 * (3 * change - 2 * rate - end_rate),
+                                  6 * (rate + end_rate - 2 * change)};
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t k = 0; k < kCubic; ++k) end[i] += by_input_[u][i * kCubic + k] * cubic[k];
+  }
+}
+
+DamperStep::DamperStep(const DamperModel& damper, double length)
+    : damper_(damper), law_(model_as<LawModel>(damper)), length_(length), half_(1) {
+  if (law_ && !law_->law().step) law_ = nullptr;
+  if (law_ && law_->lag_rate() > 0) half_ = LagWeights(0.5 * length * law_->lag_rate());
+}
+
+/// One step of a law's own, however long, which is smooth in its parameters; else whatever the
+/// model does.
+void DamperStep::advance(const DamperInput& from, const DamperInput& to,
+                         std::span<double> state) const {
+  if (!law_) return damper_.advance(from, to, length_, state);
+  const Law& law = law_->law();
+  const std::size_t count = law.states.size();
+
+  // The current in the coil half way, whose parameters serve for the step, and at the end.
+  double middle = 0.5 * (from.current + to.current), end = to.current;
+  if (law_->lag_rate() > 0) {
+    const double command = middle;
+    middle = half_.of(state[count], from.current, command);
+    end = half_.of(middle, command, to.current);
+  }
+  std::array<double, kMaxParams> parameters;
+  law_->parameters_at(middle, parameters.data());
+
+  const double x[] = {from.displacement, to.displacement}, v[] = {from.velocity, to.velocity};
+  if (law.step(parameters.data(), x, v, length_, state.data()) == 0)
+    return damper_.advance(from, to, length_, state);
+  if (law_->lag_rate() > 0) state[count] = end;
+}
+
+/// The force at the end where `force` was presumed, and the damper's state there.
+double DamperStep::answer(const DamperMotion& motion, double force, std::span<const double> state,
+                          States& end) const {
+  DamperInput to = motion.to;
+  to.displacement += motion.moves * force;
+  to.velocity += motion.hastens * force;
+  std::ranges::copy(state, end.begin());
+  const std::span<double> own(end.data(), state.size());
+  advance(motion.from, to, own);
+  return damper_.force(to, own);
+}
+
+double DamperStep::end_force(const DamperMotion& motion, std::span<double> state) {
+  constexpr int kMost = 20;
+  constexpr double kClose = 1e-6;  // of the largest force, before the last correction
+  States ends[2];
+
+  // The answer falls with the presumed force where the damper resists, so that the force lies
+  // between any presumed one and its answer. The slope is at first that of the step before.
+  double low = -INFINITY, high = INFINITY;
+  double presumed = is_first_ ? motion.force : 2 * motion.force - before_;
+  double last = 0, last_excess = 0, next = presumed;
+  for (int k = 0; k < kMost; ++k) {
+    const double answered = answer(motion, presumed, state, ends[k % 2]);
+    const double excess = answered - presumed;
+    largest_ = std::max(largest_, std::abs(answered));
+    if (k > 0 && presumed != last) slope_ = 1 + (excess - last_excess) / (presumed - last);
+    if (!(slope_ < 0.9)) slope_ = 0;
+
+    // The next one, between the bounds if the slope says that there are any.
+    next = presumed + excess / (1 - slope_);
+    if (slope_ <= 0) {
+      low = std::max(low, std::min(presumed, answered));
+      high = std::min(high, std::max(presumed, answered));
+      if (low <= high && !(next >= low && next <= high)) next = 0.5 * (low + high);
+    }
+    const bool is_close = std::abs(excess) <= kClose * largest_;
+    if (k > 0 && (is_close || presumed == last || k + 1 == kMost)) {
+      // The last correction moves the state along as well.
+      const double share = presumed != last ? (next - presumed) / (presumed - last) : 0;
+      for (std::size_t i = 0; i < state.size(); ++i)
+        state[i] = ends[k % 2][i] + share * (ends[k % 2][i] - ends[(k + 1) % 2][i]);
+      break;
+    }
+    last = presumed;
+    last_excess = excess;
+    presumed = next;
+  }
+  before_ = motion.force;
+  is_first_ = false;
+  return next;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,81 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/lag.h"
+
+namespace dashpot {
+
+// One step of a plant and the damper in it, apart. Over the step the damper's force goes straight,
+// so that the linear plant is brought over it exactly; the damper follows the motion that this
+// makes by whatever is stable for it. The two meet in one number, the force at the end.
+
+/// The numbers of a linear plant (plant_run.h), n x n and n, by the inverse of its mass.
+struct PlantNumbers {
+  std::size_t size;  ///< n
+  const std::vector<double>&damping, &stiffness, &by_force;
+  const std::vector<std::vector<double>>&by_value, &by_rate;  ///< per input
+};
+
+/// The inputs of a plant: per input, its value and rate at each point in time.
+struct PlantInputSamples {
+  const std::vector<std::vector<double>>&value, &rate;
+};
+
+/// A linear plant over a step of one length: q and q' at its end. Each input is the cubic that has
+/// the values and rates of both ends.
+class PlantStep {
+ public:
+  PlantStep(const PlantNumbers& plant, double length);
+
+  /// The end, from `state` at `point`, for a force that falls straight to 0.
+  void end_without_force(const PlantInputSamples& inputs, std::size_t point, const double* state,
+                         double force, double* end) const;
+  /// What each newton at the end adds.
+  const std::vector<double>& by_end_force() const { return by_end_force_; }
+
+ private:
+  std::size_t count_;  ///< of states
+  double length_;
+  std::vector<double> free_;      ///< count x count
+  std::vector<double> by_force_;  ///< of a newton at the start
+  std::vector<double> by_end_force_;
+  /// Per input, count x 4: of the coefficients of the cubic, each over its factorial.
+  std::vector<std::vector<double>> by_input_;
+};
+
+/// What a damper in a plant knows of a step.
+struct DamperMotion {
+  DamperInput from, to;   ///< to: without a force at the end
+  double moves, hastens;  ///< what each newton at the end adds to displacement and velocity
+  double force;           ///< at the start
+};
+
+/// A damper's way over steps of one length.
+class DamperStep {
+ public:
+  DamperStep(const DamperModel& damper, double length);
+
+  /// The force at the end, at which the damper arrives under the motion that this force makes;
+  /// `state` is brought there. Found by the secant method, between bounds where the law resists.
+  double end_force(const DamperMotion& motion, std::span<double> state);
+
+ private:
+  using States = std::array<double, 16>;
+  double answer(const DamperMotion& motion, double force, std::span<const double> state,
+                States& end) const;
+  void advance(const DamperInput& from, const DamperInput& to, std::span<double> state) const;
+
+  const DamperModel& damper_;
+  const LawModel* law_;  ///< null unless it has a step of its own
+  double length_;
+  LagWeights half_;     ///< of its coil over half the step
+  double before_ = 0;   ///< the force a step ago
+  double slope_ = 0;    ///< of the answer over the force that is presumed
+  double largest_ = 0;  ///< force so far
+  bool is_first_ = true;
+};
+
+}  // namespace dashpot
