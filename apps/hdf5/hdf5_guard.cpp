@@ -31,16 +31,20 @@ std::size_t bounded_product(std::size_t a, std::size_t b, std::size_t most) {
 /// The values of a chunk, which is unpacked as a whole, and how many chunks there are; or zeros.
 struct Chunks {
   std::size_t values = 0, count = 0;
-  bool fit = true;  ///< they have as many sides as the dataset
+  bool fit = true;  ///< they have as many sides as the dataset, and none longer than it can be
 };
 
 Chunks chunks_of(hid_t creation, hid_t space, std::size_t most) {
   if (creation < 0 || space < 0 || H5Pget_layout(creation) != H5D_CHUNKED) return {};
-  std::array<hsize_t, H5S_MAX_RANK> sides{}, extent{};
+  std::array<hsize_t, H5S_MAX_RANK> sides{}, extent{}, most_extent{};
   const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, sides.data());
-  if (H5Sget_simple_extent_dims(space, extent.data(), nullptr) != rank) return {0, 0, false};
+  if (H5Sget_simple_extent_dims(space, extent.data(), most_extent.data()) != rank)
+    return {0, 0, false};
   Chunks chunks{1, 1};
   for (std::size_t k = 0; k < static_cast<std::size_t>(std::max(rank, 0)); ++k) {
+    // HDF5 makes no such chunk, and would read behind one that unpacks to fewer numbers.
+    if (sides[k] > most_extent[k])
+      return {0, 0, false};  // without a limit it is the largest number
     const hsize_t side = std::max<hsize_t>(sides[k], 1);
     chunks.values = bounded_product(chunks.values, sides[k], most);
     chunks.count = bounded_product(chunks.count, extent[k] / side + (extent[k] % side != 0), most);

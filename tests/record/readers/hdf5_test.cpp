@@ -70,6 +70,17 @@ TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
   CHECK_THROWS_WITH_AS(read_tables(folder.write("scalar.h5", scalar)),
                        doctest::Contains("of its chunks cannot be"), Error);
 
+  // A chunk that is longer than the column: HDF5 would read behind what it unpacks to.
+  const char chunk_of_force[] = {40, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0};
+  const std::size_t chunk = whole.find(std::string(chunk_of_force, sizeof chunk_of_force));
+  REQUIRE(chunk != std::string::npos);
+  for (const std::size_t byte : {std::size_t{1}, std::size_t{5}}) {
+    std::string longer = whole;
+    longer[chunk + byte] = 1;
+    CHECK_THROWS_WITH_AS(read_tables(folder.write("longer.h5", longer)),
+                         doctest::Contains("of its chunks cannot be"), Error);
+  }
+
   // A number of 32 MiB, and numbers whose bits lie beside them: HDF5 would read behind its buffer.
   const std::string real("\x08\0\0\0\0\0\x40\0\x34\x0b\0\x34", 12);
   const std::string integer("\x10\x08\0\0\x02\0\0\0\0\0\x10\0", 12);
