@@ -107,9 +107,9 @@ class LoopPath {
     const Number from = s.from, to = s.to;
     const Number fall = (from - to) / h, near = turn_ * (fall < 0 ? -fall : fall);
     const Mask at_end = to * to <= near, within = on_branch_ & (h > least);
-    const Mask beyond = within & (to < 0) & !at_end,
-               dipped =
-                   within & !beyond & (dips(s, s.early, kEarly, h) | dips(s, s.late, kLate, h));
+    const Mask beyond = within & (to < 0) & !at_end;
+    const Mask early = dips(s, s.early, kEarly, h), late = dips(s, s.late, kLate, h),
+               dipped = within & !beyond & (early | late);
     met.over = beyond | dipped;
     met.stuck = beyond & ((from <= 0) | (from * from <= 4 * near) | (refused_ > kMostRefused));
     met.until = dipped ? 0.5 * h : h * from / (from - to);
