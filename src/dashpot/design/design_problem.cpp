@@ -206,6 +206,13 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn,
   return damper;
 }
 
+/// The first goal or constraint that asks for the same quantity in the same question.
+std::size_t DesignProblem::asked_before(std::size_t k) const {
+  std::size_t first = 0;
+  while (question_of_[first] != question_of_[k] || &quantity_of(first) != &quantity_of(k)) ++first;
+  return first;
+}
+
 DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
   const auto model_of = [&](const Question& question) -> const DesignModel& {
     return question.by == ToldBy::Second ? *second_ : model_;
@@ -225,6 +232,10 @@ DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
     const Question& question = questions_[question_of_[k]];
     const DesignQuantity& quantity = quantity_of(k);
     const Appraisal& own = told[question_of_[k]];
+    if (const std::size_t same = asked_before(k); same < k && !quantity.has_band()) {
+      figures.values.push_back(figures.values[same]);  // a ride is long
+      continue;
+    }
     const auto figure = [&](const DamperPhysics& physics) {
       return quantity.of({damper, question.at, physics, model_of(question), &request_});
     };

@@ -64,6 +64,7 @@ class DesignProblem {
   void ask_fitted();
   const DesignQuantity& quantity_of(std::size_t k) const;
   bool is_wanted_large(std::size_t k) const;
+  std::size_t asked_before(std::size_t k) const;
   void follow(DamperDescription& damper) const;
   double figure_of_share(std::vector<double>& figures, bool at_least) const;
 
