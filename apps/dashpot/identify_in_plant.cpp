@@ -133,8 +133,11 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
     return lines;
   }
   lines.push_back(fmt::format(
-      "Integrated by the classical Runge-Kutta method, {} steps per sample; half the step changes "
-      "the worst sensor by {} % of its error.",
+      "Integrated {}, {} steps per sample; half the step changes the worst sensor by {} % of its "
+      "error.",
+      report.method == PlantMethod::RungeKutta
+          ? "by the classical Runge-Kutta method"
+          : "exactly for the plant, under a force that goes straight over a step",
       report.steps, format_number(100 * report.step_error, 2)));
   return lines;
 }

@@ -129,3 +129,24 @@ TEST_CASE("plant step: stable at any stiffness of the damper, where Runge-Kutta 
           0.05);
   }
 }
+
+TEST_CASE(
+    "plant step: a hysteresis that begins far beyond its loop is on it before the first step") {
+  const LawModel damper = load_parameters("spencer1997_bouc_wen");
+  std::vector<double> p(damper.law().params.size());
+  damper.parameters_at(1, p.data());
+  const auto of = [&](const char* name) { return p[damper.law().index_of(name)]; };
+  const double z_max = std::pow(of("A") / (of("gamma") + of("beta")), 1 / of("n"));
+
+  // The wheel moves alone, on the way that the hysteresis has gone too far, and nothing but the
+  // damper's state changes.
+  for (const double wheel : {0.5, -0.5}) {
+    std::vector<double> state = {0.01, 0, 0, wheel, (wheel < 0 ? 50 : -50) * z_max};
+    state.resize(4 + damper.state_size(), 1.0);
+    quarter_car().settle(damper, road(0.1, 0.002, 1, PlantMethod::StraightForce, 0), state);
+    CHECK(std::abs(state[4]) < 1.001 * z_max);
+    CHECK(std::abs(state[4]) > 0.9 * z_max);
+    CHECK(state[0] == 0.01);
+    CHECK(state[3] == wheel);
+  }
+}

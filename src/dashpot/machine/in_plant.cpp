@@ -42,20 +42,12 @@ struct Candidate {
   double cost = INFINITY;
 };
 
-LawModel law_of(const Candidate& one, const PlantStart& start) {
-  return one.unknowns.model(std::span(one.x).subspan(start.plant.size(), one.unknowns.size()));
-}
-
-/// The fastest rate of its states over the drive, 1/s, at the top speed; 0 without a bound.
-double fastest_rate(const LawModel& model, const PlantStart& start) {
-  const Law& law = model.law();
-  double rate = 0;
-  std::vector<double> parameters(law.params.size());
-  for (const double drive : {start.scale.drive.low, start.scale.drive.high}) {
-    model.parameters_at(drive, parameters.data());
-    if (law.rate) rate = std::max(rate, law.rate(parameters.data(), start.scale.speed));
-  }
-  return rate;
+/// Forces are seen only through a plant of which something is expected.
+bool is_expected(const InPlantSetup& setup) {
+  constexpr double kWide = 100;
+  return std::ranges::all_of(setup.unknown, [](const PlantUnknown& one) {
+    return one.about || (one.lower > 0 && one.upper <= kWide * one.lower);
+  });
 }
 
 /// The law as a bench would find it from the motion and force that the sensors tell without a law;
@@ -64,19 +56,12 @@ std::optional<Candidate> bench_candidate(const Law& law, const InPlantSetup& set
                                          const std::vector<PlantRecording>& recordings,
                                          const PlantCases& cases, const PlantStart& start,
                                          const InPlantOptions& options) {
-  // A law that steps in other ways has no sharp knee; and forces are seen only through a plant of
-  // which something is expected.
-  constexpr double kWide = 100;
-  const auto is_expected = [](const PlantUnknown& one) {
-    return one.about || (one.lower > 0 && one.upper <= kWide * one.lower);
-  };
-  if (!law.step && !law.states.empty()) return {};
-  if (!std::ranges::all_of(setup.unknown, is_expected)) return {};
-
   options.monitor.report("the law, as on a bench", 0);
   InPlantOptions alike = options;
   alike.asymmetric = false;
-  const std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
+  std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
+  constexpr std::size_t kEnough = 2500;  // samples, as the longest of the starts' horizons
+  for (PlantRecording& one : fitted) one = part_of(one, 0, std::min(one.samples, kEnough));
   std::vector<Record> records;
   std::shared_ptr<const DamperModel> found;
   try {
@@ -95,12 +80,7 @@ std::optional<Candidate> bench_candidate(const Law& law, const InPlantSetup& set
   one.x = residuals.start(start.plant, start.states);
   std::ranges::copy(one.unknowns.off_bounds(one.unknowns.of(*found->law_inside())),
                     one.x.begin() + static_cast<std::ptrdiff_t>(start.plant.size()));
-
-  // A knee that no data could show comes of a plant that is not known yet.
-  constexpr double kMostKnees = 1e5;  // in a stroke
-  const double knees =
-      fastest_rate(law_of(one, start), start) * start.scale.stroke / start.scale.speed;
-  return knees < kMostKnees ? std::optional(one) : std::nullopt;
+  return one;
 }
 
 /// Starts that differ in how much of the force is the damper's, and in how soon it bends: neither
@@ -165,12 +145,21 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
   return left.front();
 }
 
-/// So many steps per sample that Runge-Kutta, whose limit is 2.78, stays stable at this rate.
-std::size_t stable_steps(double rate, const PlantCases& cases) {
+/// So many steps per sample that Runge-Kutta, whose limit is 2.78, stays stable with the law as it
+/// starts.
+std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
+                         const PlantStart& start, const InPlantOptions& options) {
   constexpr double kStable = 2;  // fastest rate times step
-  const double per_sample = rate * cases.all.front().driving.sample_time / kStable;
+  if (!law.rate) return cases.steps;
+  const LawUnknowns unknowns(law, start.scale, setup.drive_unit, OffsetMode::Record,
+                             options.choices);
+  std::vector<double> parameters(law.params.size());
+  unknowns.model(unknowns.start()).parameters_at(start.scale.drive.high, parameters.data());
+  const double rate = law.rate(parameters.data(), start.scale.speed);
   std::size_t steps = cases.steps;
-  while (steps <= kMostSteps && per_sample > static_cast<double>(steps)) steps *= 2;
+  const double sample_time = cases.all.front().driving.sample_time;
+  while (steps < kMostSteps && rate * sample_time > kStable * static_cast<double>(steps))
+    steps *= 2;
   return steps;
 }
 
@@ -235,7 +224,8 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
                                          const InPlantOptions& options, PlantCases& cases,
                                          PlantResiduals& residuals, std::vector<double> x,
                                          InPlantReport& report) {
-  // As many as the start already asks for.
+  // Weights and steps as the start, which is near by now, already asks for.
+  if (cases.method == PlantMethod::StraightForce) residuals.reweigh(x);
   while (cases.method == PlantMethod::StraightForce && options.steps == 0 &&
          cases.steps < kMostSteps && residuals.step_error(x, recordings) > kStepShare)
     cases = make_cases(setup, recordings, 2 * cases.steps, cases.method);
@@ -246,11 +236,11 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
     const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
     if (is_finite) x = solved.x;
     report.step_error = is_finite ? residuals.step_error(x, recordings) : INFINITY;
-    const bool is_lost = !is_finite || residuals.diverges(x);
+    const bool was_explicit = cases.method == PlantMethod::RungeKutta;
+    const bool is_lost = was_explicit && (!is_finite || residuals.diverges(x));
     if (report.step_error <= kStepShare && !is_lost) return solved;
 
     // A force that goes straight, where Runge-Kutta is lost or further from the limit.
-    const bool was_explicit = cases.method == PlantMethod::RungeKutta;
     if (was_explicit) {
       PlantCases before = std::move(cases);
       cases = make_cases(setup, recordings, before.steps, PlantMethod::StraightForce);
@@ -288,18 +278,15 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   require_profiles(law, setup, start.scale, options);
 
   // The law's unknowns in the size of these data, and a start from which the fit gets on.
-  std::optional<Candidate> from_bench =
-      bench_candidate(law, setup, recordings, cases, start, options);
-  const LawUnknowns usual(law, start.scale, setup.drive_unit, OffsetMode::Record, options.choices);
-  const double rate = fastest_rate(usual.model(usual.start()), start);
-  const double sharp = from_bench ? fastest_rate(law_of(*from_bench, start), start) : rate;
-  if (stable_steps(sharp, cases) > kMostSteps) {
+  // One with a step of its own may have a sharp knee.
+  const bool may_be_sharp = is_expected(setup) && law.step;
+  std::optional<Candidate> from_bench;
+  if (may_be_sharp || (is_expected(setup) && law.states.empty()))
+    from_bench = bench_candidate(law, setup, recordings, cases, start, options);
+  if (may_be_sharp)
     cases = under_straight_force(setup, recordings, options);
-  } else {
-    if (!law.states.empty()) from_bench.reset();  // a smooth hysteresis: the usual starts find it
-    if (options.steps == 0)
-      cases = make_cases(setup, recordings, std::min(kMostSteps, stable_steps(rate, cases)));
-  }
+  else if (options.steps == 0)
+    cases = make_cases(setup, recordings, stable_steps(law, setup, cases, start, options));
   Candidate best = best_start(law, setup, cases, start, from_bench, options);
   if (!std::isfinite(best.cost) && cases.method == PlantMethod::RungeKutta) {
     cases = under_straight_force(setup, recordings, options);
@@ -322,6 +309,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                               format_number(100 * report.step_error, 2) +
                               " % of its error: the law is too sharp for it");
   report.steps = cases.steps;
+  report.method = cases.method;
   report.message = solved.message;
   report.seconds = cpu_seconds() - started;
   if (solved.x.empty() || !std::isfinite(solved.cost)) {

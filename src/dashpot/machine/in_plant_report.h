@@ -63,6 +63,7 @@ struct InPlantReport {
   int iterations = 0;
   double seconds = 0;     ///< CPU time
   std::size_t steps = 1;  ///< of the integrator per sample
+  PlantMethod method = PlantMethod::RungeKutta;
   /// What half the step changes, rms, as a share of the rms error; the worst sensor.
   double step_error = 0;
 };
