@@ -34,8 +34,8 @@ void find_cycle(std::span<double> state, const std::function<void(std::span<doub
         settled = false;
         continue;
       }
-      const double kept =
-          std::clamp((to[n] - last_to[n]) / (from[n] - last_from[n]), 0., kMostKept);
+      const double apart = from[n] - last_from[n];
+      const double kept = apart == 0 ? 0 : std::clamp((to[n] - last_to[n]) / apart, 0., kMostKept);
       const double step = moved / (1 - kept);
       state[n] = from[n] + step;
       if (kept * std::abs(step) > kSettled * std::abs(state[n])) settled = false;
