@@ -164,9 +164,9 @@ void add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
 
   // Batch by batch, so that a stop loses one of them at most.
   for (std::size_t first = 0; first < todo.size(); first += batch) {
-    options.monitor.report(
-        fmt::format("day {} of {}", first + 1, todo.size()),
-        0.3 + 0.7 * static_cast<double>(first) / static_cast<double>(todo.size()));
+    options.monitor.report(fmt::format("day {} of {}", first + 1, todo.size()),
+                           kPreparation + (1 - kPreparation) * static_cast<double>(first) /
+                                              static_cast<double>(todo.size()));
     const std::size_t count = std::min(batch, todo.size() - first);
     std::vector<std::optional<WatchedDay>> days(count);
     std::vector<std::string> faults(count);

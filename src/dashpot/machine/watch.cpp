@@ -92,9 +92,14 @@ WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Doma
 
   // The uncertainties by the plant's numbers, these by the uncertainties, and once more.
   for (int round = 0; round < kRounds; ++round) {
+    Monitor monitor = options.monitor;
+    monitor.on_progress = [&, round](const Progress& own) {
+      if (options.monitor.on_progress)
+        options.monitor.on_progress({own.stage, kPreparation * (round + own.fraction) / kRounds});
+    };
     const ObserveReport observed =
         observe(watched.damper, domain, as_begun(watched.setup), reference,
-                {.causal = true, .threads = options.threads, .monitor = options.monitor});
+                {.causal = true, .threads = options.threads, .monitor = monitor});
     watched.noise = observed.noise;
     watched.steps = observed.steps;
     std::vector<DayEstimate> days(reference.size());

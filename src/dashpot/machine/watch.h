@@ -29,6 +29,9 @@ struct WatchedDay {
 /// Throws Error where options and plant do not fit together.
 void require_watchable(const InPlantSetup& setup, const WatchOptions& options);
 
+/// Of the work of watching, as progress tells it, what watched_plant() takes.
+inline constexpr double kPreparation = 0.3;
+
 /// The plant as the first reference days show it: uncertainties, and where its unknown numbers lie.
 /// Throws Error before long work where options, plant, damper and recordings do not fit together.
 WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Domain& domain,

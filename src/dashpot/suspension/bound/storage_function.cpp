@@ -11,11 +11,10 @@ namespace {
 class StorageFunction {
  public:
   StorageFunction(const SampledPlant& car, const RideIndex& index, Certificate& certificate,
-                  const MotionSquares& motion, double size)
+                  const MotionSquares& motion, double size, double room)
       : car_(car), index_(index), certificate_(certificate) {
-    constexpr double kRoom = 3e-5;
-    for (std::size_t i = 0; i < motion.size(); ++i) room_(i, i) = kRoom * size / motion[i];
-    room_(kOnePlace, kOnePlace) = kRoom * size;
+    for (std::size_t i = 0; i < motion.size(); ++i) room_(i, i) = room * size / motion[i];
+    room_(kOnePlace, kOnePlace) = room * size;
   }
 
   bool back_over(std::size_t cell) {
@@ -80,9 +79,9 @@ class StorageFunction {
 std::optional<double> certified_minimum(const Plant& plant, const SampledPlant& car,
                                         const ForceRange& range, const RideIndex& index,
                                         const LimitCourse& course, const MotionSquares& motion,
-                                        double size) {
+                                        double size, double room) {
   Certificate certificate(plant, car, range, index, course);
-  StorageFunction storage(car, index, certificate, motion, size);
+  StorageFunction storage(car, index, certificate, motion, size, room);
   for (std::size_t cell = car.cells(); cell-- > 0;)
     if (!storage.back_over(cell)) return {};
   return certificate.bound();
