@@ -117,10 +117,12 @@ class SineRun {
  private:
   /// What the resistance was moved by in a step, in ways over which the spring gives by its force.
   /// A spring's force f before a resistance that takes the speed u forgets by K df/du or more, and
-  /// df/du is f / u at most, since a resistance falls with the speed.
+  /// df/du is f / u at most, since a resistance falls with the speed. Nothing is counted where the
+  /// force turns: there u and f are both small, and what the steps get wrong is not.
   static double travel(double pull, double before, double after) {
-    const double ways = (pull - (after - before)) / (0.5 * (before + after));
-    return ways > 0 && std::isfinite(ways) ? ways : 0;
+    const double largest = std::max(std::abs(before), std::abs(after));
+    const double ways = std::copysign(1., before + after) * (pull - (after - before)) / largest;
+    return before * after > 0 && ways > 0 ? ways : 0;
   }
 
   const FamilyPhysics::Element& element_;
