@@ -390,12 +390,14 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   for (const double height : {1.0, 0.1, 0.01}) climb.up(sectors, height);
   Relaxation found{.path = {}, .constant = course_of(sectors, climb.x, climb.block)};
 
-  // Where the range has no end, sectors are all there is.
-  if (!range.ends) {
+  // Over shorter blocks, where that is asked for or, the range having no end, sectors are all.
+  const bool by_short = !range.ends || options.start == RelaxationStart::Short;
+  if (by_short)
     for (const std::size_t block : {16, 4}) {
       climb.set_block(sectors, block * options.block);
       for (const double height : {0.3, 0.1}) climb.up(sectors, height);
     }
+  if (!range.ends) {
     climb.set_block(sectors, options.block);
     for (const double height : {0.1, 0.03, 0.01, 0.003}) {
       climb.up(sectors, height);
@@ -404,10 +406,12 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
     return found;
   }
 
-  // Any limits, from those that stay on. (From sectors over short blocks it arrived less far: some
-  // of these vanish.)
+  // Any limits, from those sectors on.
   FreeFamily free(range, curvature);
-  climb.x = free.unknowns_of(found.constant.limits.front());
+  std::vector<double> start;
+  for (const ForceLimit& limit : course_of(sectors, climb.x, climb.block).limits)
+    for (const double x : free.unknowns_of(limit)) start.push_back(x);
+  climb.x = std::move(start);
   const auto up = [&](std::size_t block, std::initializer_list<double> heights) {
     climb.set_block(free, block * options.block);
     for (const double height : heights) {
@@ -416,8 +420,10 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
       found.path.push_back(course_of(free, climb.x, climb.block));
     }
   };
-  up(16, {0.3, 0.1});
-  up(8, {0.1});
+  if (!by_short) {
+    up(16, {0.3, 0.1});
+    up(8, {0.1});
+  }
   up(4, {0.1});
   up(2, {0.1, 0.03});
   up(1, {0.1, 0.03, 0.01, 0.003});

@@ -3,12 +3,18 @@
 
 namespace dashpot {
 
+/// From which sectors any limits are sought, where the range of forces ends: those that stay all
+/// the time, or those that a climb over short blocks has made of them. Which arrives at more cannot
+/// be told beforehand.
+enum class RelaxationStart { Staying, Short };
+
 /// The index less a course of limits has a minimum over ALL forces,
 ///   L(F) = integral of [ cost(x, F, t) - q(t; v, F) ] dt,   x' = A x + B F + w(t),   x(0) = 0,
 /// which is not above what any F within the limits can reach, because q >= 0 there. The minimum is
 /// concave in the coefficients of q: climbing it is what this file does. What the result is worth
 /// certified_minimum() says.
 struct RelaxationOptions {
+  RelaxationStart start = RelaxationStart::Staying;
   std::size_t block = 1;  ///< cells that share a limit in the end
   int iterations = 100;   ///< of L-BFGS, at most, per climb
   double size = 1;        ///< of the index on this road
