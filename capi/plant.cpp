@@ -1,6 +1,5 @@
 #include "dashpot/base/date.h"
 #include "dashpot/base/escape.h"
-#include "dashpot/damper/law_list.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
@@ -39,7 +38,7 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
   const InPlantSetup setup = setup_of(plant);
   const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
   const std::vector<std::string>& models = words.fit.words.models;
-  const Law& law = find_law(models.front(), "options, models");
+  const Law& law = law_for_plant(models.front(), "options, models");
   find_sensor_grade(words.grade, "options, grade");
   const IdentifyOptions fit = identify_options(words.fit.words, models, "options, ");
   InPlantOptions options{.choices = fit.choices,

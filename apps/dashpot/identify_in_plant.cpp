@@ -8,7 +8,6 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/law_list.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
@@ -56,7 +55,7 @@ void require_meaning(const RankingSettings& settings) {
   if (fit.models == std::vector<std::string>{"usual"})
     throw UsageError("--models", "is not stated",
                      "with --in, name the laws that are to be fitted: --models modified_bouc_wen");
-  for (const std::string& name : fit.models) find_law(name, "--models");
+  for (const std::string& name : fit.models) law_for_plant(name, "--models");
 }
 
 std::string value_text(const FittedParameter& p) { return format_number(p.value, 5); }
@@ -317,7 +316,8 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   options.starts = std::max(options.starts, fit.starts);
   std::vector<InPlantFit> fits;
   for (const std::string& name : settings.fit.models)
-    fits.push_back({name, identify_in_plant(find_law(name), setup, recordings, options)});
+    fits.push_back(
+        {name, identify_in_plant(law_for_plant(name, "--models"), setup, recordings, options)});
   std::ranges::stable_sort(fits, {}, &InPlantFit::worst);
 
   // What came out of it.

@@ -9,6 +9,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/in_plant_report.h"
@@ -145,6 +146,16 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
   return left.front();
 }
 
+std::pair<double, double> drive_range(const PlantCases& cases) {
+  double low = INFINITY, high = -INFINITY;
+  for (const PlantCase& one : cases.all) {
+    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
+    low = std::min(low, least);
+    high = std::max(high, greatest);
+  }
+  return {low, high};
+}
+
 /// So many steps per sample that Runge-Kutta, whose limit is 2.78, stays stable with the law as it
 /// starts.
 std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
@@ -169,6 +180,27 @@ PlantCases under_straight_force(const InPlantSetup& setup,
                                 const InPlantOptions& options) {
   return make_cases(setup, recordings, std::max<std::size_t>(1, options.steps),
                     PlantMethod::StraightForce);
+}
+
+/// The law's unknowns in the size of these data, and a start from which the fit gets on; `cases`
+/// become those of the method and the steps that the law asks for.
+Candidate start_of_law(const Law& law, const InPlantSetup& setup,
+                       const std::vector<PlantRecording>& recordings, PlantCases& cases,
+                       const PlantStart& start, const InPlantOptions& options) {
+  // One with a step of its own may have a sharp knee.
+  const bool may_be_sharp = is_expected(setup) && law.step;
+  std::optional<Candidate> from_bench;
+  if (may_be_sharp || (is_expected(setup) && law.states.empty()))
+    from_bench = bench_candidate(law, setup, recordings, cases, start, options);
+  if (may_be_sharp)
+    cases = under_straight_force(setup, recordings, options);
+  else if (options.steps == 0)
+    cases = make_cases(setup, recordings, stable_steps(law, setup, cases, start, options));
+
+  Candidate best = best_start(law, setup, cases, start, from_bench, options);
+  if (std::isfinite(best.cost) || cases.method != PlantMethod::RungeKutta) return best;
+  cases = under_straight_force(setup, recordings, options);
+  return best_start(law, setup, cases, start, from_bench, options);
 }
 
 /// Numbers whose profile is wanted must be among those that are fitted.
@@ -215,6 +247,20 @@ LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> 
   return solved;
 }
 
+/// What the damper went through.
+Domain domain_of(const std::vector<InPlantTrace>& traces, const DriveRange& drive) {
+  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
+  for (const InPlantTrace& trace : traces) {
+    const auto [shortest, longest] = std::ranges::minmax(trace.deflection);
+    const auto [slowest, quickest] = std::ranges::minmax(trace.velocity);
+    domain.displacement_min = std::min(domain.displacement_min, shortest);
+    domain.displacement_max = std::max(domain.displacement_max, longest);
+    domain.velocity_min = std::min(domain.velocity_min, slowest);
+    domain.velocity_max = std::max(domain.velocity_max, quickest);
+  }
+  return domain;
+}
+
 constexpr double kStepShare = 0.05;  // of the error that is left: what half a step may change
 
 /// The fit; where the integrator's step is too long for its error, once more by the other method if
@@ -254,6 +300,13 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
 
 }  // namespace
 
+const Law& law_for_plant(const std::string& name, const std::string& where) {
+  if (is_law(name)) return find_law(name);
+  model_info(name, where);
+  throw Error(where, "'" + name + "' is no law, and laws alone are identified inside a plant",
+              "a law, as tanh_kwok or modified_bouc_wen; 'dashpot models' lists them");
+}
+
 InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 const std::vector<PlantRecording>& recordings,
                                 const InPlantOptions& options) {
@@ -265,33 +318,14 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit
   // with a spring and a dashpot in the damper's place.
   PlantCases cases = make_cases(setup, recordings, options.steps);
-  double low = INFINITY, high = -INFINITY;
-  for (const PlantCase& one : cases.all) {
-    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
-    low = std::min(low, least);
-    high = std::max(high, greatest);
-  }
+  const auto [low, high] = drive_range(cases);
   require_drive(law, setup, low, high, options, report.warnings);
   const PlantStart start = plant_start(setup, recordings, cases, options);
   report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
 
   require_profiles(law, setup, start.scale, options);
 
-  // The law's unknowns in the size of these data, and a start from which the fit gets on.
-  // One with a step of its own may have a sharp knee.
-  const bool may_be_sharp = is_expected(setup) && law.step;
-  std::optional<Candidate> from_bench;
-  if (may_be_sharp || (is_expected(setup) && law.states.empty()))
-    from_bench = bench_candidate(law, setup, recordings, cases, start, options);
-  if (may_be_sharp)
-    cases = under_straight_force(setup, recordings, options);
-  else if (options.steps == 0)
-    cases = make_cases(setup, recordings, stable_steps(law, setup, cases, start, options));
-  Candidate best = best_start(law, setup, cases, start, from_bench, options);
-  if (!std::isfinite(best.cost) && cases.method == PlantMethod::RungeKutta) {
-    cases = under_straight_force(setup, recordings, options);
-    best = best_start(law, setup, cases, start, from_bench, options);
-  }
+  const Candidate best = start_of_law(law, setup, recordings, cases, start, options);
   const auto& [unknowns, x, cost] = best;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
@@ -337,16 +371,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
     if (std::isinf(figure.held_back))
       report.warnings.push_back(figure.recording + ": the plant diverges on the time held back (" +
                                 figure.channel + ")");
-  report.domain = {
-      INFINITY, -INFINITY, INFINITY, -INFINITY, start.scale.drive.low, start.scale.drive.high};
-  for (const InPlantTrace& trace : report.traces) {
-    const auto [shortest, longest] = std::ranges::minmax(trace.deflection);
-    const auto [slowest, quickest] = std::ranges::minmax(trace.velocity);
-    report.domain.displacement_min = std::min(report.domain.displacement_min, shortest);
-    report.domain.displacement_max = std::max(report.domain.displacement_max, longest);
-    report.domain.velocity_min = std::min(report.domain.velocity_min, slowest);
-    report.domain.velocity_max = std::max(report.domain.velocity_max, quickest);
-  }
+  report.domain = domain_of(report.traces, start.scale.drive);
   report.seconds = cpu_seconds() - started;
   return report;
 }
