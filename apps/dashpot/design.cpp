@@ -11,6 +11,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/design/design_law.h"
+#include "dashpot/machine/comfort_ride.h"
 #include "dashpot/report/design_report.h"
 #include "design_next.h"
 #include "document_text.h"
@@ -49,7 +50,7 @@ constexpr std::string_view kDesignExample =
 DesignRequest requested(const DesignSettings& settings, Goals goals) {
   if (settings.request.empty())
     throw UsageError("REQUEST", "is missing: a file, or one of " + join(request_names(), ", "));
-  return is_path(settings.request) ? load_request(settings.request, goals)
+  return is_path(settings.request) ? load_request(settings.request, goals, read_comfort_ride)
                                    : named_request(settings.request);
 }
 

@@ -10,6 +10,7 @@
 #include "dashpot/dataset.h"
 #include "dashpot/design/design_request.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/comfort_ride.h"
 #include "dashpot/physics/damper_description.h"
 #include "start_model.h"
 #include "vehicle_words.h"
@@ -95,6 +96,10 @@ std::string count_word(double value, double low, double high, const std::string&
   return format_number(value, 10);
 }
 
+DesignRequest parsed_request(const std::string& text) {
+  return parse_request(text, kRequestFile, {}, Goals::Required, read_comfort_ride);
+}
+
 /// The request's text; throws Error where it is none, or names a file: what it starts from comes
 /// with Dashpot.
 std::string checked_request(const Value& asked) {
@@ -108,7 +113,7 @@ std::string checked_request(const Value& asked) {
     throw Error(damper->where(),
                 "'" + damper->as_string() + "' is no damper that comes with Dashpot",
                 join(known, ", "));
-  parse_request(text, kRequestFile);
+  parsed_request(text);
   return text;
 }
 
@@ -132,8 +137,8 @@ std::vector<std::string> design_command(const Project&, const fs::path& folder,
 /// A front goes on from the designs that it has.
 Value continued_design(const fs::path& folder, const Value& asked) {
   const std::string text = checked_request(asked);
-  const bool has_front = parse_request(text, kRequestFile).goals.size() > 1 &&
-                         fs::exists(folder / "designs" / "design_001.yaml");
+  const bool has_front =
+      parsed_request(text).goals.size() > 1 && fs::exists(folder / "designs" / "design_001.yaml");
   Value next = Value::object();
   for (const auto& [key, member] : asked.members())
     if (key != "goes_on") next.add(key, member);

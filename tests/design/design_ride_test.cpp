@@ -1,8 +1,7 @@
-#include "dashpot/design/design_ride.h"
-
 #include "damper/kinds/family/example_family.h"
 #include "dashpot/design/design.h"
 #include "dashpot/design/design_law.h"
+#include "dashpot/machine/comfort_ride.h"
 #include "dashpot/report/design_report.h"
 #include "dashpot/suspension/ride/simulated_run.h"
 #include "resisting_family.h"
@@ -18,9 +17,12 @@ at: {current: 2 A, velocity: 0.3 m/s}
 vary: {gap: {from: 0.8 mm, to: 2 mm}}
 )";
 
+DesignRequest parsed(const std::string& rest) {
+  return parse_request(kCar + rest, "request.yaml", {}, Goals::Required, read_comfort_ride);
+}
 DesignReport ridden_design(const std::string& rest, DesignOptions options = {}) {
   options.threads = 1;
-  return design(parse_request(kCar + rest, "request.yaml"), options);
+  return design(parsed(rest), options);
 }
 
 /// The a_w of a drawing in that ride, by the law that its model file holds.
@@ -74,20 +76,19 @@ TEST_CASE("a constraint on comfort holds, or what could be reached is said; of a
   save_model(
       {.model = resisting_family().with_offset(0), .domain = {-0.02, 0.02, -0.05, 0.05, 0, 1}},
       file);
-  const DesignRequest request =
-      parse_request(kCar + ride + "goals: [{minimise: comfort}]", "r.yaml");
+  const DesignRequest request = parsed(ride + "goals: [{minimise: comfort}]");
   const auto family = make_design_model(file, "");
   const DamperPhysics physics = family->evaluate(request.damper, {0.5, 0.02});
   const double told = find_design_quantity("comfort", "")
                           .of({request.damper, {0.5, 0.02}, physics, *family, &request});
-  CHECK_CLOSE(told, ridden_comfort(*family->model_of(request.damper), *request.ride), 1e-12, 0);
+  CHECK_CLOSE(told, request.ride->comfort(*family->model_of(request.damper)), 1e-12, 0);
   CHECK(told > 0);
 }
 
 TEST_CASE("a ride that cannot be is refused before the search") {
   const auto says = [](const std::string& rest, const std::string& words) {
     CAPTURE(rest);
-    const std::string message = message_of([&] { parse_request(kCar + rest, "request.yaml"); });
+    const std::string message = message_of([&] { parsed(rest); });
     CAPTURE(message);
     CHECK(contains(message, words));
     CHECK(contains(message, "request.yaml"));
@@ -102,4 +103,6 @@ TEST_CASE("a ride that cannot be is refused before the search") {
   says("ride: {plant: savaresi_spelta, duration: 0}\n" + goal, "more than 0");
   says("ride: {plant: savaresi_spelta, seed: 0.5}\n" + goal, "whole number");
   says("ride: {plants: savaresi_spelta}\n" + goal, "plant");
+  const std::string asked = kCar + ("ride: {plant: savaresi_spelta}\n" + goal);
+  CHECK(contains(message_of([&] { parse_request(asked, "request.yaml"); }), "cannot be asked"));
 }

@@ -3,6 +3,7 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/design/design_problem.h"
+#include "dashpot/machine/comfort_ride.h"
 #include "dashpot/model_file.h"
 #include "dashpot/physics/damper_physics.h"
 #include "fuzz.h"
@@ -50,8 +51,8 @@ void damper_yaml(const std::string& input) {
 
 /// What is understood can be searched: figures of the middle of all ranges.
 void design_yaml(const std::string& input) {
-  const dashpot::DesignRequest request =
-      dashpot::parse_request(input, "request.yaml", "/nonexistent");
+  const dashpot::DesignRequest request = dashpot::parse_request(
+      input, "request.yaml", "/nonexistent", dashpot::Goals::Required, dashpot::read_comfort_ride);
   const std::unique_ptr<dashpot::DesignModel> model = dashpot::make_design_model("physics", "");
   const dashpot::DesignProblem problem(request, *model, 1);
   const std::vector<double> middle(problem.size(), 0.5);

@@ -58,7 +58,7 @@ class DesignRun {
 
 void DesignRun::note_limits() {
   if (report_.request.ride)
-    report_.notes.push_back("comfort is that of " + describe(*report_.request.ride));
+    report_.notes.push_back("comfort is that of " + report_.request.ride->description());
   for (const DesignModel* model : {model_.get(), second_.get()}) {
     if (!model || !model->is_fitted()) continue;
     if (model->has_band())

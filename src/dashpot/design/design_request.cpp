@@ -254,7 +254,8 @@ std::string describe(const DesignGoal& goal) {
 }
 
 DesignRequest parse_request(std::string_view text, const std::string& source,
-                            const std::filesystem::path& folder, Goals goals) {
+                            const std::filesystem::path& folder, Goals goals,
+                            RideReader read_ride) {
   const Value document = parse_yaml(text, source);
   ObjectReader reader(document, "a design request");
 
@@ -286,7 +287,10 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
   });
 
   // The requirements: the ride, robustness, constraints and goals.
-  if (const Value* ride = reader.optional("ride")) request.ride = read_design_ride(*ride);
+  if (const Value* ride = reader.optional("ride")) {
+    if (!read_ride) throw Error(ride->where(), "a ride cannot be asked about here");
+    request.ride = read_ride(*ride);
+  }
   if (const Value* robust = reader.optional("robust")) read_robust(*robust, request);
   if (const Value* list = reader.optional("constraints"))
     for (const Value& item : list->items()) read_constraint(item, at, request);
@@ -299,8 +303,8 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
   return request;
 }
 
-DesignRequest load_request(const std::filesystem::path& path, Goals goals) {
-  return parse_request(read_file(path), path.string(), path.parent_path(), goals);
+DesignRequest load_request(const std::filesystem::path& path, Goals goals, RideReader read_ride) {
+  return parse_request(read_file(path), path.string(), path.parent_path(), goals, read_ride);
 }
 
 DesignRequest named_request(const std::string& name) {

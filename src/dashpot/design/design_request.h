@@ -66,7 +66,7 @@ struct DesignRequest {
   std::vector<DesignConstraint> constraints;
   std::vector<DesignGoal> goals;
   std::vector<DesignTolerance> tolerances;
-  std::optional<DesignRide> ride;  ///< that `comfort` is of
+  DesignRidePointer ride;  ///< that `comfort` is of; null: there is none
   /// Share of the dampers made that must hold the constraints and reach the goals; 0: the drawn
   /// damper alone counts.
   double share = 0;
@@ -84,12 +84,14 @@ std::string describe(const DesignGoal& goal);
 /// Whether a request has to say what it is for: next_drawings() asks for no goal.
 enum class Goals { Required, Optional };
 
-/// YAML as docs/design.md describes. `folder`: where a damper's file is looked for. Throws Error
-/// that names file and line.
+/// YAML as docs/design.md describes. `folder`: where a damper's file is looked for; read_ride: who
+/// reads a ride that a design is asked about, null where none can be. Throws Error that names file
+/// and line.
 DesignRequest parse_request(std::string_view text, const std::string& source,
-                            const std::filesystem::path& folder = {},
-                            Goals goals = Goals::Required);
-DesignRequest load_request(const std::filesystem::path& path, Goals goals = Goals::Required);
+                            const std::filesystem::path& folder = {}, Goals goals = Goals::Required,
+                            RideReader read_ride = nullptr);
+DesignRequest load_request(const std::filesystem::path& path, Goals goals = Goals::Required,
+                           RideReader read_ride = nullptr);
 /// One that comes with Dashpot, in data/designs. Throws Error on a name that is not among
 /// request_names().
 DesignRequest named_request(const std::string& name);

@@ -2,28 +2,25 @@
 #include <memory>
 #include <string>
 
-#include "dashpot/ground_motion.h"
 #include "dashpot/model_file.h"
 #include "dashpot/value.h"
-#include "dashpot/vehicle.h"
 
 namespace dashpot {
 
-/// The ride that a design can be asked about: the damper in every strut of a plant, on a ground.
-struct DesignRide {
-  VehicleWords vehicle;  ///< without dampers
-  std::shared_ptr<const GroundMotion> ground;
-  double duration = 10;  ///< s
+/// A ride that a design can be asked about. Vehicles lie beside this room, not below it: what reads
+/// the words of a ride and drives it is machine/comfort_ride.h.
+class DesignRide {
+ public:
+  virtual ~DesignRide() = default;
+  /// "savaresi_spelta on ..., by skyhook"
+  virtual std::string description() const = 0;
+  /// The body's weighted acceleration with this damper (ISO 2631-1, Wk), rms, m/s^2. NaN where the
+  /// ride diverges or the damper does not suit the controller.
+  virtual double comfort(const ModelFile& damper) const = 0;
 };
+using DesignRidePointer = std::shared_ptr<const DesignRide>;
 
-/// Reads the key `ride` of a request. Throws Error at words that name nothing or do not fit
-/// together, and at a plant that does not ride.
-DesignRide read_design_ride(const Value& value);
-/// "savaresi_spelta on ..., by skyhook"
-std::string describe(const DesignRide& ride);
-
-/// The body's weighted acceleration in the ride with this damper (ISO 2631-1, Wk), rms, m/s^2. NaN
-/// where the ride diverges or the damper does not suit the controller.
-double ridden_comfort(const ModelFile& damper, const DesignRide& ride);
+/// Reads the key `ride` of a request; throws Error at words that name nothing or do not fit.
+using RideReader = DesignRidePointer (*)(const Value& value);
 
 }  // namespace dashpot

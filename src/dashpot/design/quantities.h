@@ -54,7 +54,7 @@ std::string shown_figure(double value, std::string_view si_unit);
 
 /// Name of the quantity that the ride of a request has.
 constexpr std::string_view kRideComfort = "comfort";
-/// ridden_comfort() (design_ride.h) of the damper's model; NaN without a ride.
+/// What the request's ride (design_ride.h) says of the damper's model; NaN without a ride.
 double comfort(const OperatedDamper& damper);
 
 /// Time from a step of the coil's voltage to 90 % of the force's change, s. The flux linkage N
