@@ -23,24 +23,11 @@
 #include "dashpot/evaluate.h"
 #include "dashpot/identify.h"
 #include "dashpot/split.h"
+#include "identify/fit/virtual_family.h"
 
 using namespace dashpot;
 
 namespace {
-
-std::vector<Record> every_third(std::vector<Record> records) {
-  const auto thin = [](std::vector<double>& values) {
-    for (std::size_t k = 0; 3 * k < values.size(); ++k) values[k] = values[3 * k];
-    values.resize((values.size() + 2) / 3);
-  };
-  for (Record& record : records) {
-    record.sample_time *= 3;
-    record.warm_up /= 3;
-    thin(record.time);
-    for (Channel& channel : record.channels) thin(channel.samples);
-  }
-  return records;
-}
 
 std::pair<double, double> geometry_of(const Record& record) {
   std::pair<double, double> geometry{};

@@ -106,3 +106,17 @@ TEST_CASE("simulate: both traces as plain samples, for programs that draw") {
   }
   CHECK(std::filesystem::file_size(samples + "/samples.f64") == columns * 1001 * sizeof(double));
 }
+
+TEST_CASE("simulate: the same bits on a processor without AVX-512" * doctest::test_suite("long")) {
+  if (run_program("command -v qemu-x86_64").exit_code != 0) {
+    MESSAGE("SKIPPED: no qemu-x86_64 is here");
+    return;
+  }
+  const std::string arguments =
+      " simulate --controller mix1 --road iso8608,class=C --duration 0.5 --json";
+  const std::string here = "DASHPOT_SIMD=avx2 ", there = here + "qemu-x86_64 -cpu Haswell ";
+  const ProgramResult native = run_program(here + program_path() + arguments + " 2>/dev/null");
+  const ProgramResult emulated = run_program(there + program_path() + arguments + " 2>/dev/null");
+  REQUIRE(native.exit_code == 0);
+  CHECK(native.output == emulated.output);
+}

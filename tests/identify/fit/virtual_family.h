@@ -98,4 +98,19 @@ inline Dataset virtual_family(const VirtualFamily& family) {
   return data;
 }
 
+/// Every third sample, which fits are as good on where the motion is slow, in a third of the time.
+inline std::vector<Record> every_third(std::vector<Record> records) {
+  const auto thin = [](std::vector<double>& values) {
+    for (std::size_t k = 0; 3 * k < values.size(); ++k) values[k] = values[3 * k];
+    values.resize((values.size() + 2) / 3);
+  };
+  for (Record& record : records) {
+    record.sample_time *= 3;
+    record.warm_up /= 3;
+    thin(record.time);
+    for (Channel& channel : record.channels) thin(channel.samples);
+  }
+  return records;
+}
+
 }  // namespace dashpot

@@ -63,6 +63,15 @@ struct Fleet {
   std::vector<BatchVehicle> vehicles;
 };
 
+/// The last of a fleet, after two seconds at this tolerance.
+BatchResult ridden(const Fleet& fleet, double tolerance) {
+  const BatchOptions options{.duration = 2,
+                             .relative_tolerance = tolerance,
+                             .absolute_tolerance = 1e-3 * tolerance,
+                             .traces = true};
+  return simulate_batch(fleet.vehicles, options).back();
+}
+
 /// Greatest distance of a channel in lanes from simulate()'s, of its greatest magnitude.
 double apart(const Record& a, const Record& b, const char* channel) {
   const std::vector<double>&x = a.channel(channel).samples, &y = b.channel(channel).samples;
@@ -158,14 +167,7 @@ TEST_CASE("a network of velocity keeps the tolerance in lanes, in single precisi
       CAPTURE(neurons);
       CAPTURE(count);
       const Fleet fleet(network_damper({2, neurons, 1}, {"current", "velocity"}), nullptr, count);
-      const auto ride = [&](double tolerance) {
-        return simulate_batch(fleet.vehicles, {.duration = 2,
-                                               .relative_tolerance = tolerance,
-                                               .absolute_tolerance = 1e-3 * tolerance,
-                                               .traces = true})
-            .back();
-      };
-      const BatchResult coarse = ride(1e-6), fine = ride(1e-10);
+      const BatchResult coarse = ridden(fleet, 1e-6), fine = ridden(fleet, 1e-10);
       for (const char* channel :
            {"body", "wheel", "body_velocity", "wheel_velocity", "suspension_force"}) {
         CHECK(apart(coarse.trace, fine.trace, channel) < 1e-6);
@@ -191,14 +193,7 @@ TEST_CASE("stiff hysteresis loops of any shape keep the tolerance in lanes, in f
          "mix1", 3},
         {law_damper("bouc_wen", {88000, 1500, 2500, 0, gamma, beta, 301, n, 0}), nullptr, 3}};
     for (const Fleet& fleet : fleets) {
-      const auto ride = [&](double tolerance) {
-        return simulate_batch(fleet.vehicles, {.duration = 2,
-                                               .relative_tolerance = tolerance,
-                                               .absolute_tolerance = 1e-3 * tolerance,
-                                               .traces = true})
-            .back();
-      };
-      const BatchResult coarse = ride(1e-6), fine = ride(1e-9);
+      const BatchResult coarse = ridden(fleet, 1e-6), fine = ridden(fleet, 1e-9);
       const BatchVehicle& last = fleet.vehicles.back();
       const Trace trace = simulate(last.setting, {.duration = 2,
                                                   .relative_tolerance = 1e-8,

@@ -1,5 +1,6 @@
 #include "dashpot/suspension/dampers/law_loop.h"
 
+#include <algorithm>
 #include <array>
 
 #include "dashpot/damper/kinds/law/law_model.h"
@@ -9,29 +10,39 @@
 namespace dashpot {
 namespace {
 
-LoopShape<double> bouc_wen_shape(double A, double gamma, double beta, double n) {
-  const double z_max = bouc_wen_z_max(A, gamma, beta, n);
-  return {z_max, A / z_max, gamma / (gamma + beta), n};
-}
 template <class P>
 LoopShape<double> shape_of(const P& p) {
-  return bouc_wen_shape(p.A, p.gamma, p.beta, p.n);
+  const double z_max = bouc_wen_z_max(p.A, p.gamma, p.beta, p.n);
+  return {z_max, p.A / z_max, p.gamma / (p.gamma + p.beta), p.n};
 }
 LoopShape<double> shape_of(const NormalisedBoucWen& p) { return {1, p.rho, p.sigma, p.n}; }
 
-/// The loop of a law with parameters P, whose state z is number `state`.
+/// The loop of a law with parameters P, in table order.
 template <class P>
-LawLoop loop_with(const double* parameters, std::size_t state, bool in_series = false) {
-  return {state, in_series, shape_of(detail::from_array<P>(parameters))};
+LoopShape<double> shape_from(const double* parameters) {
+  return shape_of(detail::from_array<P>(parameters));
 }
 
-/// The laws that have one, by name; `p` at some current.
-std::optional<LawLoop> loop_at(std::string_view law, const double* p) {
-  if (law == "bouc_wen") return loop_with<BoucWen>(p, 0);
-  if (law == "large_scale_bouc_wen") return loop_with<LargeScaleBoucWen>(p, 0);
-  if (law == "modified_bouc_wen") return loop_with<ModifiedBoucWen>(p, 1, true);
-  if (law == "normalised_bouc_wen") return loop_with<NormalisedBoucWen>(p, 0);
-  return {};
+/// A law with a loop: where its state z stands, and which parameters give the loop its shape.
+struct KnownLoop {
+  std::string_view law;
+  std::size_t state;
+  bool in_series;
+  std::array<std::string_view, 4> shaped_by;
+  LoopShape<double> (*shape)(const double* parameters);
+};
+
+constexpr KnownLoop kLoops[] = {
+    {"bouc_wen", 0, false, {"A", "gamma", "beta", "n"}, shape_from<BoucWen>},
+    {"large_scale_bouc_wen", 0, false, {"A", "gamma", "beta", "n"}, shape_from<LargeScaleBoucWen>},
+    {"modified_bouc_wen", 1, true, {"A", "gamma", "beta", "n"}, shape_from<ModifiedBoucWen>},
+    {"normalised_bouc_wen", 0, false, {"rho", "sigma", "n"}, shape_from<NormalisedBoucWen>},
+};
+
+bool follows_current(const Dependence& parameters, std::size_t k) {
+  const std::vector<double>& c = parameters.coefficients[k];
+  if (parameters.forms[k] == Form::Exponential) return c[0] != c[1] && c[2] != 0;
+  return std::any_of(c.begin() + 1, c.end(), [](double coefficient) { return coefficient != 0; });
 }
 
 }  // namespace
@@ -39,20 +50,17 @@ std::optional<LawLoop> loop_at(std::string_view law, const double* p) {
 std::optional<LawLoop> loop_of(const DamperModel& model) {
   const auto* law = model_as<LawModel>(model);
   if (!law || law->law().text) return {};
+  const auto* loop = std::ranges::find(kLoops, law->law().name, &KnownLoop::law);
+  if (loop == std::end(kLoops)) return {};
 
-  // At a few currents: a shape that changes between them is none.
-  std::optional<LawLoop> loop;
-  for (const double current : {0.0, 0.37, 1.0}) {
-    std::array<double, kMaxParams> p;
-    law->parameters_at(current, p.data());
-    const auto here = loop_at(law->law().name, p.data());
-    if (!here) return {};
-    if (loop && (here->shape.z_max != loop->shape.z_max || here->shape.rate != loop->shape.rate ||
-                 here->shape.sigma != loop->shape.sigma || here->shape.n != loop->shape.n))
+  const auto& rows = law->law().params;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (std::ranges::count(loop->shaped_by, rows[k].name) && follows_current(law->parameters(), k))
       return {};
-    loop = here;
-  }
-  return loop;
+
+  std::array<double, kMaxParams> parameters;
+  law->parameters_at(0, parameters.data());
+  return LawLoop{loop->state, loop->in_series, loop->shape(parameters.data())};
 }
 
 }  // namespace dashpot
