@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dashpot/base/random.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/plant.h"
@@ -10,6 +11,7 @@
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/steps/integrator.h"
+#include "dashpot/suspension/steps/step_control.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -284,6 +286,22 @@ TEST_CASE("a force that jumps costs an error that is counted, not hours") {
   CHECK(trace.warnings[0].find("the tolerance could not be met in ") == 0);
   // Held: body and wheel move as one on the soft spring of the tyre.
   CHECK(greatest(trace, "suspension_deflection") < 1e-5);
+}
+
+TEST_CASE("what the shortest steps leave of a stretch is one of them, however it is rounded") {
+  // Else it would be refused, and tried again, without end.
+  Random random(1);
+  for (int k = 0; k < 2000; ++k) {
+    const double length = 1e-3 * random.uniform();
+    Allowance least(length);
+    double done = 0;
+    while (done + least.shortest() < length * (1 - 1e-12)) {
+      done += least.shortest();
+      if (random.uniform() < 0.05) least.miss();
+    }
+    CHECK(least.is_shortest(length - done));
+    CHECK(!least.is_shortest(1.001 * least.shortest()));
+  }
 }
 
 TEST_CASE("a loss of contact at the start does not count where the start is left out") {

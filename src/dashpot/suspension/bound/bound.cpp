@@ -86,7 +86,21 @@ std::optional<double> certified_best(const Plant& plant, const SampledPlant& car
   // gain without end. Less room takes more pieces.
   constexpr double kRooms[] = {kUsualRoom, 3e-6, 3e-7};
   constexpr double kMostTimesTheMedian = 30;
-  constexpr double kPulls[] = {0, 0.001, 0.002, 0.004, 0.007, 0.012, 0.02, 0.03};
+  constexpr double kPulls[] = {0.001, 0.002, 0.004, 0.007, 0.012, 0.02}, kLongestPull = 0.03;
+  const auto pulled = [&](const LimitCourse& course, double room) {
+    const auto by = [&](double pull) {
+      return certified(mixed(course, relaxed.constant, pull, 1), room);
+    };
+    std::optional<double> least = by(0);
+    if (least) return least;
+
+    // Where the longest pull leads nowhere, none does.
+    const std::optional<double> furthest = by(kLongestPull);
+    if (!furthest) return furthest;
+    for (const double pull : kPulls)
+      if ((least = by(pull))) return least;
+    return furthest;
+  };
   for (; !relaxed.path.empty(); relaxed.path.pop_back()) {
     // As they are, and with those made smaller that are many times as large as usual: they make the
     // Riccati equation stiff, but others may rely on them.
@@ -95,9 +109,7 @@ std::optional<double> certified_best(const Plant& plant, const SampledPlant& car
     tame(tamed, kMostTimesTheMedian);
     for (const double room : kRooms)
       for (const LimitCourse* const course : {&best, &std::as_const(tamed)})
-        for (const double pull : kPulls)
-          if (const auto least = certified(mixed(*course, relaxed.constant, pull, 1), room))
-            return least;
+        if (const auto least = pulled(*course, room)) return least;
   }
 
   // Ever less of those that stay.

@@ -63,7 +63,7 @@ class ExplicitSteps final : public StepMethod {
       }
 
       // Too great an error is accepted from the shortest step alone, and counted.
-      if (bad && h > least.shortest()) continue;
+      if (bad && !least.is_shortest(h)) continue;
       if (!std::isfinite(error)) return false;
       if (bad) {
         ++counts_.missed;

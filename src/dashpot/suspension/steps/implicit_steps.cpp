@@ -83,7 +83,7 @@ class ImplicitSteps final : public StepMethod {
         next_ = std::max(last && !bad ? std::max(next_, wanted) : wanted, least.shortest());
 
         // Too great an error is accepted from the shortest step alone, and counted.
-        if (bad && h > least.shortest()) continue;
+        if (bad && !least.is_shortest(h)) continue;
         if (!std::isfinite(error)) return false;
         if (bad) {
           ++counts_.missed;

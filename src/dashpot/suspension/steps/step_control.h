@@ -20,6 +20,8 @@ class Allowance {
  public:
   explicit Allowance(double stretch) : shortest_(stretch / 4096), longest_(stretch / 64) {}
   double shortest() const { return shortest_; }
+  /// The last step of a stretch is what is left of it, which rounding may make a little longer.
+  bool is_shortest(double step) const { return step <= (1 + 1e-8) * shortest_; }
   void miss() { shortest_ = std::min(2 * shortest_, longest_); }
 
  private:
