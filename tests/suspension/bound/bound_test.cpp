@@ -61,7 +61,7 @@ StaticForce odd_damper(Random& random) {
 /// Random cars on random roads with random dampers: their bounds, and what controllers of Dashpot
 /// and demands at random reach on the dampers themselves.
 struct RandomRides {
-  int proven = 0, rides = 0, outside = 0;
+  int proven = 0, rides = 0, outside = 0, optima_outside = 0;
   double optimum = INFINITY, controller = INFINITY;  ///< the least over its bound, of squares
 
   static constexpr double kDuration = 0.25, kTravel = 0.15;
@@ -91,6 +91,7 @@ struct RandomRides {
         weighted_index(0.5 * static_cast<double>(number % 3), RideSquares{1, 1e6});
     const ClairvoyantBound found = clairvoyant_bound(
         plant, *ground, range, index, {.duration = kDuration, .step = 2e-3, .iterations = 10});
+    optima_outside += found.leaves;
     if (!found.proven) return;
     ++proven;
     CHECK(found.bound <= found.optimum);
@@ -114,10 +115,13 @@ struct RandomRides {
     const std::vector<MountedDamper> dampers{mounted(range)};
     const Trace trace = simulate({plant, dampers, ground, &controls},
                                  {.duration = kDuration, .output_step = 2.5e-4, .limits = limits});
-    const std::vector<double>& travel = trace.record.channel("suspension_deflection").samples;
     const double reached = ride_squares(trace, plant).of(found.index);
     ++rides;
-    outside += std::max(std::ranges::max(travel), -std::ranges::min(travel)) > kTravel;
+    const StrutMotion motion = strut_motion(trace, plant), within = motion_of(range);
+    if (motion.travel > within.travel || motion.speed > within.speed) {
+      ++outside;  // the bound says nothing of it
+      return;
+    }
     CHECK(reached >= found.bound);
     controller = std::min(controller, reached / found.bound);
   }
@@ -318,6 +322,25 @@ TEST_CASE("a force that slows its own motion lies on the range") {
   CHECK_CLOSE(bent.curves().share(0.1, 1150), 0.5, 1e-12, 0);
 }
 
+TEST_CASE("where the optimum goes beyond the range, nothing is proven") {
+  // Of a random car the certificate would have been 1.83 beside an optimum of 0.45.
+  const GroundPointer ground = road();
+  const auto bound = [&](double speed) {
+    const ForceRange range = force_range(
+        "dashpot",
+        [](const DamperInput& at) { return (300 + 2700 * at.current) * std::tanh(at.velocity); },
+        {.current_min = 0, .current_max = 1, .velocity = speed});
+    return clairvoyant_bound(light_car(), *ground, range, {1, 0}, {.duration = 0.5});
+  };
+  const ClairvoyantBound narrow = bound(0.1), wide = bound(5);
+  CHECK(narrow.motion.speed > 0.1);
+  CHECK(narrow.leaves);
+  CHECK(!narrow.proven);
+  CHECK(narrow.bound == 0);
+  CHECK(!wide.leaves);
+  CHECK(wide.proven);
+}
+
 TEST_CASE("what has no clairvoyant bound says so") {
   const GroundPointer ground = road();
   const ForceRange range = damping_range(300, 3900);
@@ -367,7 +390,7 @@ TEST_CASE("no random damper in a random car beats its bound" * doctest::test_sui
     if ((k + 1 - first) % 200 == 0) MESSAGE(std::to_string(k + 1) << ": " << all.text());
   }
   CHECK(all.proven >= 0.95 * (last - first));
-  CHECK(all.outside == 0);
+  CHECK(all.outside + all.optima_outside <= 0.01 * (last - first));
   CHECK(all.optimum < 1.3);  // bounds that say something
   MESSAGE(all.text());
 }

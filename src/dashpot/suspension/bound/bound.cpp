@@ -30,18 +30,16 @@ class SharePlayer final : public Controller {
 };
 
 /// A few outputs per step: between them the body's acceleration has no jumps.
-RideSquares simulated(const Plant& plant, const GroundMotion& ground, const ForceRange& range,
-                      const std::vector<double>& shares, const BoundOptions& options) {
+Trace simulated(const Plant& plant, const GroundMotion& ground, const ForceRange& range,
+                const std::vector<double>& shares, const BoundOptions& options) {
   const std::vector<MountedDamper> dampers{mounted(range)};
   const ControllerPointer player = play_shares(shares);
-  return ride_squares(
-      simulate({plant, dampers, ground, player.get()}, {.duration = options.duration,
-                                                        .output_step = options.step / 4,
-                                                        .step = {},
-                                                        .sensors = {},
-                                                        .limits = {.sample_time = options.step},
-                                                        .monitor = {}}),
-      plant);
+  return simulate({plant, dampers, ground, player.get()}, {.duration = options.duration,
+                                                           .output_step = options.step / 4,
+                                                           .step = {},
+                                                           .sensors = {},
+                                                           .limits = {.sample_time = options.step},
+                                                           .monitor = {}});
 }
 
 double trapezes(const std::vector<double>& time, const std::vector<double>& values, double less) {
@@ -131,6 +129,24 @@ RideSquares ride_squares(const Trace& trace, const Plant& plant) {
                    plant.tyres.front().static_load)};
 }
 
+void StrutMotion::include(const StrutMotion& other) {
+  travel = std::max(travel, other.travel);
+  speed = std::max(speed, other.speed);
+}
+
+StrutMotion strut_motion(const Trace& trace, const Plant& plant) {
+  const std::string& strut = plant.struts.front().name;
+  const auto greatest = [&](const char* channel) {
+    const auto [least, most] = std::ranges::minmax(trace.record.channel(strut + channel).samples);
+    return std::max(-least, most);
+  };
+  return {greatest("_deflection"), greatest("_velocity")};
+}
+
+StrutMotion motion_of(const ForceRange& range) {
+  return {range.travel, range.ends ? range.velocity.back() : INFINITY};
+}
+
 RideIndex weighted_index(double comfort, const RideSquares& reference) {
   return {comfort / reference.acceleration, (1 - comfort) / reference.tyre_force};
 }
@@ -152,14 +168,19 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
   // The optimum: demands that the search finds, simulated.
   const Course course = best_course(car, range, index, options.starts);
   found.shares = course.shares;
-  found.squares = simulated(plant, ground, range, found.shares, options);
+  const Trace best = simulated(plant, ground, range, found.shares, options);
+  found.squares = ride_squares(best, plant);
   found.optimum = found.squares.of(index);
+  found.motion = strut_motion(best, plant);
+  const StrutMotion within = motion_of(range);
+  found.leaves = found.motion.travel > within.travel || found.motion.speed > within.speed;
 
   // With nothing to choose there is one motion.
   if (!has_width(range)) {
     found.bound = found.optimum;
     return found;
   }
+  if (found.leaves) return found;
 
   // The bound: limits sought on coarser cells, certified on the fine ones; the better of two ways
   // to seek them.

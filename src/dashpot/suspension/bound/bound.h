@@ -22,6 +22,17 @@ struct RideSquares {
 /// The means of a quarter car's trace, by trapezes between its samples.
 RideSquares ride_squares(const Trace& trace, const Plant& plant);
 
+/// A motion of a strut: the greatest of a ride either way.
+struct StrutMotion {
+  double travel = 0;  ///< m
+  double speed = 0;   ///< m/s
+  void include(const StrutMotion& other);
+};
+/// Of the plant's first strut.
+StrutMotion strut_motion(const Trace& trace, const Plant& plant);
+/// The motion within which a range holds; infinite where it goes on outside.
+StrutMotion motion_of(const ForceRange& range);
+
 /// Comfort and road holding as shares of a reference: `comfort` of one, 1 - `comfort` of the other;
 /// the reference itself has the index 1.
 RideIndex weighted_index(double comfort, const RideSquares& reference);
@@ -42,6 +53,8 @@ struct ClairvoyantBound {
   double bound = 0;            ///< no force within the range makes the index less
   double optimum = 0;          ///< simulated: what the demands below reach
   RideSquares squares;         ///< of the optimum
+  StrutMotion motion;          ///< of the optimum
+  bool leaves = false;         ///< the optimum goes beyond the range, so that nothing is proven
   std::vector<double> shares;  ///< demands, per step, from softest (0) to hardest (1)
   bool proven = false;         ///< the bound, by a certificate in interval arithmetic; else it is 0
 
@@ -50,7 +63,8 @@ struct ClairvoyantBound {
 
 /// For every force F(t) within the range at each instant, however made, the index of this quarter
 /// car on this road, straight within steps, is at least `bound`. Where the range ends, or holds for
-/// a travel only, that is said of the rides that stay within these. With one force for each motion,
+/// a travel only, that is said of the rides that stay within these, and of none where the optimum
+/// does not. With one force for each motion,
 /// where there is nothing to choose, the bound is the index of the one ride there is, simulated.
 /// Throws Error at a plant that is not a linear quarter car.
 ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,

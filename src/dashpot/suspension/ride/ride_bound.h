@@ -9,12 +9,6 @@ namespace dashpot {
 /// Shares of comfort in the indices that a front is made of.
 inline constexpr double kFrontWeights[] = {1, 0.8, 0.5, 0.2, 0};
 
-/// A motion of a strut: the greatest of a ride either way.
-struct StrutMotion {
-  double travel = 0;  ///< m
-  double speed = 0;   ///< m/s
-};
-
 /// The forces that this vehicle's damper can give between its least and its greatest current, at
 /// the strut, within a motion. Throws Error(where, ...) where nothing can be proven of it: a damper
 /// with a memory, a passive one, a plant that is not a linear quarter car.
