@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "dashpot/base/random.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"
@@ -54,6 +55,33 @@ TEST_CASE("offsets of the records are found") {
   double sum = 0;
   for (const auto& [record, offset] : report.offsets) sum += offset;
   CHECK_CLOSE(sum, 0, 0, 1e-6);  // the mean is the model's own bias
+}
+
+TEST_CASE("the offset of a single record is as uncertain as its noise makes it") {
+  // A dashpot and an offset of 5 N under white noise of 10 N.
+  constexpr double kNoise = 10, kOffset = 5;
+  int held = 0;
+  for (int seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Record record{.name = "one", .drive_level = 0, .sample_time = 1e-2};
+    std::vector<double> v, force;
+    for (int k = 0; k < 1000; ++k) {
+      record.time.push_back(record.sample_time * k);
+      v.push_back(0.1 * std::sin(6.0 * record.time.back()));
+      force.push_back(1000 * v.back() + kOffset + kNoise * random.normal());
+    }
+    record.channels = {{.name = "velocity", .unit = "m/s", .samples = v},
+                       {.name = "force", .unit = "N", .samples = force},
+                       {.name = "current", .unit = "A", .samples = std::vector<double>(1000)}};
+    const FitReport report = identify("bingham", {record}, DriveUnit::Ampere, {});
+    const FittedParameter& offset =
+        *std::ranges::find(report.parameters, "f0", &FittedParameter::name);
+    const double half = 0.5 * (offset.high - offset.low);
+    CHECK(half > 0.7 * 1.96 * kNoise / std::sqrt(1000));
+    CHECK(half < 1.4 * 1.96 * kNoise / std::sqrt(1000));
+    held += offset.low < kOffset && kOffset < offset.high;
+  }
+  CHECK(held >= 16);  // of 20, at 95 %
 }
 
 TEST_CASE("the same bits on any number of threads" * doctest::test_suite("long")) {

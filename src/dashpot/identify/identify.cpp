@@ -8,6 +8,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/uncertainty.h"
 
 namespace dashpot {
 namespace {
@@ -21,6 +22,26 @@ void require_usable(const std::string& model, const std::vector<Record>& trainin
                   "record it, or leave this model out with --models");
 }
 
+/// Of the mean of the records' offsets, N: by how they differ; where there is one record alone, by
+/// how its residuals scatter about its offset.
+double error_of_mean_offset(const Evaluation& on_training, double mean) {
+  const double n = static_cast<double>(on_training.records.size());
+  if (n > 1) {
+    double square = 0;
+    for (const RecordResult& r : on_training.records)
+      square += (r.offset - mean) * (r.offset - mean);
+    return std::sqrt(square / (n - 1) / n);
+  }
+
+  const RecordResult& record = on_training.records.front();
+  std::vector<double> residuals;
+  for (std::size_t k = record.warm_up; k < record.measured.size(); ++k)
+    residuals.push_back(record.measured[k] - record.modelled[k]);
+  if (residuals.size() < 2) return 0;
+  const double variance = independent_variances(residuals, {{0, residuals.size()}}, 1).front();
+  return std::sqrt(variance / static_cast<double>(residuals.size()));
+}
+
 /// Gives the model the mean offset of its training records as its bias, and reports what each
 /// record differs by.
 void settle_offsets(FitReport& report, const std::vector<Record>& training, DriveUnit drive_unit,
@@ -31,9 +52,8 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
 
   // The mean of the records' offsets becomes the model's bias; each record keeps its difference.
   const double n = static_cast<double>(on_training.records.size());
-  double mean = 0, square = 0;
+  double mean = 0;
   for (const RecordResult& r : on_training.records) mean += r.offset / n;
-  for (const RecordResult& r : on_training.records) square += (r.offset - mean) * (r.offset - mean);
   report.model = report.model->with_offset(mean);
   for (const RecordResult& r : on_training.records)
     report.offsets.emplace_back(r.record, r.offset - mean);
@@ -41,7 +61,7 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
   // A law has a parameter for the bias: report the mean there, with its 95 % interval.
   const auto* law = model_as<LawModel>(*report.model);
   if (!law) return;
-  const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
+  const double error = error_of_mean_offset(on_training, mean), spread = 1.96 * error;
   for (const ParamInfo& param : law->law().params) {
     if (param.fit != Fit::Bias) continue;
     const std::size_t count = report.parameters.size();
@@ -50,7 +70,7 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
       if (fitted.name != param.name) continue;
       fitted = {fitted.name, fitted.unit,   "mean force offset of the records",
                 mean,        mean - spread, mean + spread};
-      report.covariance[k * count + k] = spread * spread / (1.96 * 1.96);
+      report.covariance[k * count + k] = error * error;
     }
   }
 }
