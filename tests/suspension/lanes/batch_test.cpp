@@ -169,6 +169,18 @@ TEST_CASE("measures in lanes are those of the trace by simulate()") {
   CHECK_CLOSE(lanes.current, alone.measures.current, 1e-5, 0);
 }
 
+TEST_CASE("a tyre that has lifted has no load in lanes") {
+  Fleet fleet(law_damper("bingham", {900, 300, 10, 0.05}), nullptr, 2, {{"tyres_may_lift", 1}});
+  for (Plant& plant : fleet.plants) plant.tyres[0].static_load *= 0.2;
+  const BatchResult result = simulate_batch(fleet.vehicles, {.duration = 2, .traces = true})[1];
+  REQUIRE(result.in_lanes);
+  const Trace trace = simulate(fleet.vehicles[1].setting, {.duration = 2});
+  const std::vector<double>& load = result.trace.channel("tyre_load").samples;
+  CHECK(*std::ranges::min_element(load) == 0);
+  CHECK(result.measures.contact_lost > 0.02);
+  CHECK_CLOSE(result.measures.contact_lost, trace.contact_lost, 0, 1e-3);
+}
+
 TEST_CASE("a result depends neither on the number of threads nor on what else is in the batch") {
   const Fleet networks(network_damper({2, 10, 1}, {"velocity", "current"}), "mix1", 19),
       laws(spencer_damper(), "mix1", 7);

@@ -160,6 +160,8 @@ TEST_CASE("measures of half and full cars in lanes are those of the trace by sim
     CHECK_CLOSE(lanes.greatest_deflection, alone.greatest_deflection, 1e-5, 0);
     CHECK_CLOSE(lanes.energy, alone.energy, 1e-5, 0);
     CHECK_CLOSE(lanes.current, alone.current, 1e-5, 0);
+    CHECK_CLOSE(lanes.contact_lost, alone.contact_lost, 0, 2e-3);
+    CHECK(lanes.contact_lost > 0.01);
   }
 }
 

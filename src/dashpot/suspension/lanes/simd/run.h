@@ -165,7 +165,9 @@ class LaneRun {
     LaneMask lost{};
     Lane loads[Car::kMostTyres];
     for (std::size_t w = 0; w < car_.tyres(); ++w) {
-      loads[w] = car_.load_on_road(x, car_.push_at_wheel(x, road_[w].node[0], w), w);
+      // Less push reaches a wheel that has lifted; rounding alone would be left of its load.
+      const Lane road = road_[w].node[0], at_wheel = car_.push_at_wheel(x, road, w);
+      loads[w] = at_wheel != road ? Lane{} : car_.load_on_road(x, at_wheel, w);
       lost |= loads[w] <= 0;
       tally_.add_tyre(w, loads[w], car_.tyre(w).static_load, car_.wheel(x, w) - height_[w], counts);
     }
