@@ -26,12 +26,12 @@ double run(Ride ride, RideTrace* trace, double relative = kRelative) {
   const double start = cpu_seconds();
   double* const values = NV_DATA_S(y);
   for (std::size_t k = 0;; ++k) {
-    if (trace) trace->push_back({values[0], values[1], values[2], values[3]});
+    if (trace) trace->push_back(equations.sample(values));
     if (k == kSamples10s) break;
     double t = static_cast<double>(k) * kSample;
     const double end = static_cast<double>(k + 1) * kSample;
     equations.derivative(t, values, NV_DATA_S(slope));
-    if (equations.control(values[2], NV_DATA_S(slope)[2])) ERKStepReset(solver, t, y);
+    if (equations.control(values, NV_DATA_S(slope))) ERKStepReset(solver, t, y);
     ERKStepSetStopTime(solver, end);
     ERKStepEvolve(solver, end, y, &t, ARK_NORMAL);
   }
@@ -47,8 +47,8 @@ double run(Ride ride, RideTrace* trace, double relative = kRelative) {
 int main() {
   std::map<std::string, Task> tasks;
   add_ride_tasks(tasks, [](Ride ride, RideTrace* trace) { return run(ride, trace); });
-  for (const Ride ride : {Ride::Network, Ride::BoucWen})
-    tasks[kRideTasks[static_cast<int>(ride)] + std::string(".reference")] = [ride](int) {
+  for (const Ride ride : {Ride::Network, Ride::BoucWen, Ride::HalfNetwork, Ride::HalfBoucWen})
+    tasks[row_of(ride).task + std::string(".reference")] = [ride](int) {
       RideTrace trace;
       const double seconds = run(ride, &trace, 1e-10);
       write_reference(ride, trace);

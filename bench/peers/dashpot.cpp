@@ -147,7 +147,7 @@ int main(int count, char** arguments) {
     return serve(rides);
   }
   if (count > 2 && arguments[1] == std::string("ride")) {
-    print_ride(arguments[2] == std::string(kRideTasks[0]) ? Ride::Network : Ride::BoucWen);
+    print_ride(arguments[2] == std::string(kRides[0].task) ? Ride::Network : Ride::BoucWen);
     return 0;
   }
   if (count > 1 && arguments[1] == std::string("surface")) {

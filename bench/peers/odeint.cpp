@@ -22,11 +22,11 @@ double run_sized(Ride ride, RideTrace* trace) {
   double dt = kSample;
   system(y, slope, 0);
   for (std::size_t k = 0;; ++k) {
-    if (trace) trace->push_back({y[0], y[1], y[2], y[3]});
+    if (trace) trace->push_back(equations.sample(y.data()));
     if (k == kSamples10s) break;
     double t = static_cast<double>(k) * kSample;
     const double end = static_cast<double>(k + 1) * kSample;
-    if (equations.control(y[2], slope[2])) system(y, slope, t);
+    if (equations.control(y.data(), slope.data())) system(y, slope, t);
     while (t < end) {
       const bool last = t + dt >= end * (1 - 1e-14);
       double h = last ? end - t : dt;
@@ -46,7 +46,9 @@ double run_sized(Ride ride, RideTrace* trace) {
 int main() {
   std::map<std::string, Task> tasks;
   add_ride_tasks(tasks, [](Ride ride, RideTrace* trace) {
-    return ride == Ride::Network ? run_sized<4>(ride, trace) : run_sized<7>(ride, trace);
+    if (row_of(ride).struts > 1)
+      return row_of(ride).network ? run_sized<8>(ride, trace) : run_sized<14>(ride, trace);
+    return row_of(ride).network ? run_sized<4>(ride, trace) : run_sized<7>(ride, trace);
   });
   return serve(tasks);
 }

@@ -15,14 +15,30 @@
 #include "dashpot/suspension/ground/road_profile.h"
 #include "peer.h"
 
-// The ride that all integrators take: the one-sensor paper's quarter car, 10 s of a class C road at
-// 20 m/s, Mix-1 at 1 kHz, rtol 1e-6, atol 1e-9.
+// The rides that all integrators take: the one-sensor paper's quarter car, or a half car, 10 s of a
+// class C road at 20 m/s, Mix-1 at 1 kHz, rtol 1e-6, atol 1e-9. A full car is Dashpot's own.
 namespace peer {
 
 constexpr double kRideSeconds = 10, kSample = 1e-3, kRelative = 1e-6, kAbsolute = 1e-9;
-constexpr double kSpeed = 20, kCrossover = 1.9, kDriveMax[] = {1, 2.25};
+constexpr double kSpeed = 20, kCrossover = 1.9;
 constexpr std::size_t kSamples10s = 10000;
-enum class Ride { Network, BoucWen };
+
+enum class Ride { Network, BoucWen, HalfNetwork, HalfBoucWen, FullNetwork, FullBoucWen };
+struct RideRow {
+  Ride ride;
+  const char *task, *plant;
+  std::size_t struts;
+  bool network;      ///< else the modified Bouc-Wen damper
+  double drive_max;  ///< A, or V
+};
+constexpr RideRow kRides[] = {
+    {Ride::Network, "ride_network", "tudon_martinez2012", 1, true, 1},
+    {Ride::BoucWen, "ride_bouc_wen", "tudon_martinez2012", 1, false, 2.25},
+    {Ride::HalfNetwork, "ride_half_network", "half_car_a", 2, true, 1},
+    {Ride::HalfBoucWen, "ride_half_bouc_wen", "half_car_a", 2, false, 2.25},
+    {Ride::FullNetwork, "ride_full_network", "ikenaga2000", 4, true, 1},
+    {Ride::FullBoucWen, "ride_full_bouc_wen", "ikenaga2000", 4, false, 2.25}};
+constexpr const RideRow& row_of(Ride ride) { return kRides[static_cast<int>(ride)]; }
 
 /// 2-10-1 tanh of velocity and current, fitted to a curve that looks like a small damper's.
 inline dashpot::Mlp ride_network() {
@@ -49,15 +65,14 @@ inline dashpot::RoadProfile ride_road(int vehicle) {
                                .spacing = kSpeed * kSample,  // so that a sample lies on each point
                                .seed = static_cast<std::uint64_t>(vehicle) + 1});
 }
-inline const dashpot::Plant& ride_plant() {
-  static const dashpot::Plant plant = dashpot::load_plant_set("tudon_martinez2012").plant;
-  return plant;
+inline dashpot::Plant ride_plant(Ride ride) {
+  return dashpot::load_plant_set(row_of(ride).plant).plant;
 }
 
 inline dashpot::MountedDamper ride_damper(Ride ride) {
   dashpot::MountedDamper damper;
-  damper.driver.current_max = kDriveMax[static_cast<int>(ride)];
-  if (ride == Ride::Network) {
+  damper.driver.current_max = row_of(ride).drive_max;
+  if (row_of(ride).network) {
     damper.model = std::make_shared<dashpot::NetworkModel>(
         "network", std::vector<std::string>{"velocity", "current"}, std::vector{ride_network()});
     return damper;
@@ -70,13 +85,14 @@ inline dashpot::MountedDamper ride_damper(Ride ride) {
   return damper;
 }
 
-/// The same as equations for a general integrator: y = body, wheel, their speeds; then the law's
-/// two states and its coil's voltage.
+/// The same as equations for a general integrator: y = heights, with the half car's pitch behind
+/// that of its body, and wheels; their rates; then strut by strut the law's two states and its
+/// coil's voltage.
 class RideEquations {
  public:
-  RideEquations(Ride ride, int vehicle) : ride_(ride), heights_(ride_road(vehicle).tracks[0]) {
+  RideEquations(Ride ride, int vehicle) : row_(row_of(ride)), heights_(ride_road(vehicle).tracks[0]) {
     const dashpot::MountedDamper damper = ride_damper(ride);
-    if (ride == Ride::Network) {
+    if (row_.network) {
       const auto& network = dynamic_cast<const dashpot::NetworkModel&>(*damper.model);
       mlp_ = network.members().front();
       for (int n = 0; n < 10; ++n) {  // on raw inputs
@@ -98,14 +114,14 @@ class RideEquations {
     }
   }
 
-  std::size_t size() const { return ride_ == Ride::Network ? 4 : 7; }
+  std::size_t size() const { return 4 * row_.struts + (row_.network ? 0 : 3 * row_.struts); }
   const std::vector<double>& heights() const { return heights_; }
 
   /// Of the network: its neurons (by velocity, by current, bias, out), bias; of the law: its
   /// parameters without current, the slopes of alpha, c0 and c1 by it, the lag's rate.
   std::vector<double> numbers() const {
     std::vector<double> all;
-    if (ride_ == Ride::Network) {
+    if (row_.network) {
       for (const auto& neuron : neurons_) all.insert(all.end(), neuron.begin(), neuron.end());
       all.push_back(bias_);
     } else {
@@ -115,40 +131,64 @@ class RideEquations {
     return all;
   }
 
-  /// dy/dt; the command is constant between samples.
+  /// dy/dt; the commands are constant between samples.
   void derivative(double t, const double* y, double* dy) const {
     ++evaluations;
+    if (row_.struts > 1) return half_car(t, y, dy);
     const double x = y[0] - y[1], v = y[2] - y[3];
-    double force;
-    if (ride_ == Ride::Network) {
-      force = network(v, command);
-    } else {
-      law_at(y[6], law_);
-      force = modified_bouc_wen_force(&law_, x, v, y + 4);
-      modified_bouc_wen_derivative(&law_, x, v, y + 4, dy + 4);
-      dy[6] = lag_rate_ * (command - y[6]);
-    }
-    const double spring = kSpring * x + force;
+    const double spring = kSpring * x + damper(0, x, v, y + 4, dy + 4);
     dy[0] = y[2];
     dy[1] = y[3];
     dy[2] = -spring / kBody;
     dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
   }
 
-  /// A sample of Mix-1: hard where the body moves slower than at the crossover. Whether the command
-  /// has changed.
-  bool control(double body_velocity, double body_acceleration) {
-    const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = command;
-    command = body_acceleration * body_acceleration - rate * rate <= 0
-                  ? kDriveMax[static_cast<int>(ride_)]
-                  : 0;
-    return command != before;
+  /// A sample of Mix-1 at each strut: hard where the body moves slower than at the crossover.
+  /// Whether a command has changed.
+  bool control(const double* y, const double* dy) {
+    if (row_.struts == 1) return control(0, y[2], dy[2]);
+    const bool front = control(0, y[4] - kFront * y[5], dy[4] - kFront * dy[5]),
+               rear = control(1, y[4] + kRear * y[5], dy[4] + kRear * dy[5]);
+    return front || rear;
+  }
+  /// Body, (front) wheel and their speeds.
+  std::array<double, 4> sample(const double* y) const {
+    if (row_.struts == 1) return {y[0], y[1], y[2], y[3]};
+    return {y[0], y[2], y[4], y[6]};
   }
 
-  double command = 0;
   mutable std::size_t evaluations = 0;
 
  private:
+  /// Body, pitch (positive lowers the front), front wheel, rear wheel. Out of line, so that the
+  /// compiler sees the quarter car alone where it integrates.
+  [[gnu::noinline]] void half_car(double t, const double* y, double* dy) const {
+    const double *v = y + 4, front = y[0] - kFront * y[1] - y[2], rear = y[0] + kRear * y[1] - y[3];
+    const double at_front = kFrontSpring * front +
+                            damper(0, front, v[0] - kFront * v[1] - v[2], y + 8, dy + 8),
+                 at_rear = kRearSpring * rear +
+                           damper(1, rear, v[0] + kRear * v[1] - v[3], y + 11, dy + 11);
+    for (int k = 0; k < 4; ++k) dy[k] = v[k];
+    dy[4] = -(at_front + at_rear) / kHalfBody;
+    dy[5] = (kFront * at_front - kRear * at_rear) / kInertia;
+    dy[6] = (at_front - kHalfTyre * (y[2] - road(t))) / kFrontWheel;
+    dy[7] = (at_rear - kHalfTyre * (y[3] - road(std::max(t - (kFront + kRear) / kSpeed, 0.0)))) / kRearWheel;
+  }
+  /// Force of a strut's damper, N, and the rates of its states.
+  [[gnu::always_inline]] inline double damper(int strut, double x, double v, const double* z, double* dz) const {
+    if (row_.network) return network(v, commands_[strut]);
+    law_at(z[2], law_);
+    const double force = modified_bouc_wen_force(&law_, x, v, z);
+    modified_bouc_wen_derivative(&law_, x, v, z, dz);
+    dz[2] = lag_rate_ * (commands_[strut] - z[2]);
+    return force;
+  }
+  bool control(int strut, double body_velocity, double body_acceleration) {
+    const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = commands_[strut];
+    commands_[strut] =
+        body_acceleration * body_acceleration - rate * rate <= 0 ? row_.drive_max : 0;
+    return commands_[strut] != before;
+  }
   void law_at(double u, ModifiedBoucWen& p) const {
     p = off_;
     p.alpha += alpha_slope_ * u;
@@ -173,7 +213,11 @@ class RideEquations {
   }
 
   static constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
-  Ride ride_;
+  static constexpr double kHalfBody = 690, kInertia = 1222, kFrontWheel = 40, kRearWheel = 45,
+                          kFrontSpring = 17000, kRearSpring = 22000, kHalfTyre = 200000, kFront = 1.3,
+                          kRear = 1.5;  // data/plants/half_car_a.json
+  const RideRow& row_;
+  std::array<double, 2> commands_{};
   std::vector<double> heights_;
   dashpot::Mlp mlp_;
   std::array<std::array<double, 4>, 10> neurons_{};
@@ -182,14 +226,13 @@ class RideEquations {
   mutable ModifiedBoucWen law_{};
 };
 
-/// Body, wheel and their speeds at each sample.
+/// Body, (first) wheel and their speeds at each sample.
 using RideTrace = std::vector<std::array<double, 4>>;
 
 /// Where the trace lies that all others are compared with, written by the peer that makes it:
 /// SUNDIALS at rtol 1e-10.
 inline std::string reference_file(Ride ride) {
-  return std::string("/tmp/dashpot_bench_") + (ride == Ride::Network ? "network" : "bouc_wen") +
-         ".reference";
+  return std::string("/tmp/dashpot_bench_") + row_of(ride).task + ".reference";
 }
 inline void write_reference(Ride ride, const RideTrace& trace) {
   std::ofstream file(reference_file(ride), std::ios::binary);
@@ -216,14 +259,12 @@ inline double error_of(Ride ride, const RideTrace& trace) {
   return worst;
 }
 
-constexpr const char* kRideTasks[] = {"ride_network", "ride_bouc_wen"};
-
 /// Tasks of a general integrator: run(ride, trace or null) rides the first vehicle and returns CPU
 /// seconds. One vehicle and a batch are the same to it.
 template <class Run>
 void add_ride_tasks(std::map<std::string, Task>& tasks, Run run) {
-  for (const Ride ride : {Ride::Network, Ride::BoucWen}) {
-    const std::string name = kRideTasks[static_cast<int>(ride)];
+  for (const Ride ride : {Ride::Network, Ride::BoucWen, Ride::HalfNetwork, Ride::HalfBoucWen}) {
+    const std::string name = row_of(ride).task;
     tasks[name] = tasks[name + "_batch"] = [run, ride](int) { return run(ride, nullptr); };
     tasks[name + ".error"] = tasks[name + "_batch.error"] = [run, ride](int) {
       RideTrace trace;

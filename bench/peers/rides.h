@@ -8,12 +8,13 @@ namespace peer {
 class OwnRides {
  public:
   explicit OwnRides(Ride ride, int vehicles)
-      : limits_{.current_max = kDriveMax[static_cast<int>(ride)], .sample_time = kSample},
-        dampers_{ride_damper(ride)},
-        mix1_(dashpot::make_controller("mix1,crossover=1.9Hz", {limits_, ride_plant()})) {
+      : plant_(ride_plant(ride)),
+        limits_{.current_max = row_of(ride).drive_max, .sample_time = kSample},
+        dampers_(row_of(ride).struts, ride_damper(ride)),
+        mix1_(dashpot::make_controller("mix1,crossover=1.9Hz", {limits_, plant_})) {
     for (int k = 0; k < vehicles; ++k) roads_.push_back(dashpot::drive_over(ride_road(k), kSpeed));
     for (const dashpot::GroundPointer& road : roads_)
-      vehicles_.push_back({{ride_plant(), dampers_, *road, mix1_.get()}, limits_, {}});
+      vehicles_.push_back({{plant_, dampers_, *road, mix1_.get()}, limits_, {}});
   }
 
   /// CPU seconds per vehicle; the trace is the first one's.
@@ -39,10 +40,13 @@ class OwnRides {
   }
 
  private:
-  static RideTrace trace_of(const dashpot::Record& record) {
+  RideTrace trace_of(const dashpot::Record& record) const {
     RideTrace trace(record.time.size());
     std::size_t c = 0;
-    for (const char* name : {"body", "wheel", "body_velocity", "wheel_velocity"}) {
+    const std::string wheel =
+        vehicles_[0].setting.dampers.size() == 1 ? "wheel" : plant_.tyres[0].name + "_wheel";
+    for (const std::string& name : {std::string("body"), wheel, std::string("body_velocity"),
+                                    wheel + "_velocity"}) {
       const std::vector<double>& samples = record.channel(name).samples;
       for (std::size_t k = 0; k < trace.size(); ++k) trace[k][c] = samples[k];
       ++c;
@@ -50,6 +54,7 @@ class OwnRides {
     return trace;
   }
 
+  dashpot::Plant plant_;
   dashpot::ControlLimits limits_;
   std::vector<dashpot::MountedDamper> dampers_;
   dashpot::ControllerPointer mix1_;
@@ -61,7 +66,7 @@ class OwnRides {
 template <class Run>
 void add_own_ride(std::map<std::string, Task>& tasks, Ride ride, const std::string& ending, int vehicles,
                   Run run) {
-  const std::string name = kRideTasks[static_cast<int>(ride)] + ending;
+  const std::string name = row_of(ride).task + ending;
   const auto rides = std::make_shared<std::unique_ptr<OwnRides>>();  // made when they are asked for
   const auto made = [rides, ride, vehicles]() -> const OwnRides& {
     if (!*rides) *rides = std::make_unique<OwnRides>(ride, vehicles);
@@ -78,13 +83,13 @@ void add_own_ride(std::map<std::string, Task>& tasks, Ride ride, const std::stri
 inline void add_own_rides(std::map<std::string, Task>& tasks, bool in_lanes) {
   const auto lanes = [](const OwnRides& rides, RideTrace* trace) { return rides.in_lanes(trace); };
   const auto alone = [](const OwnRides& rides, RideTrace* trace) { return rides.by_simulate(trace); };
-  for (const Ride ride : {Ride::Network, Ride::BoucWen}) {
-    if (!in_lanes) {
-      add_own_ride(tasks, ride, "", 1, alone);
+  for (const RideRow& row : kRides) {
+    if (!in_lanes) {  // beside the batches of cars, too, which have no table of one vehicle
+      add_own_ride(tasks, row.ride, row.struts > 1 ? "_batch" : "", 1, alone);
       continue;
     }
-    add_own_ride(tasks, ride, "", 1, lanes);
-    add_own_ride(tasks, ride, "_batch", 32, lanes);
+    add_own_ride(tasks, row.ride, "", 1, lanes);
+    add_own_ride(tasks, row.ride, "_batch", 32, lanes);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <type_traits>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/aligned.h"
@@ -41,13 +40,6 @@ class Rows {
   AlignedVector<double> values_;
 };
 
-/// The numbers one behind the other, as LaneRide::numbers has them in rows.
-std::span<const double> as_numbers(const QuarterCarNumbers<double>& numbers) {
-  static_assert(std::is_trivially_copyable_v<QuarterCarNumbers<double>> &&
-                sizeof numbers % sizeof(double) == 0);
-  return {reinterpret_cast<const double*>(&numbers), sizeof numbers / sizeof(double)};
-}
-
 /// Vehicles of one shape, at most as many as there are lanes, which ride side by side.
 class LaneBatch {
  public:
@@ -59,13 +51,14 @@ class LaneBatch {
       vehicles_.push_back(&vehicles[members[std::min(lane, members.size() - 1)]]);
 
     // The shape that all have in common, and the options.
-    ride_.kind = shape.kind;
-    ride_.law = shape.law;
-    ride_.lags = shape.lags;
+    ride_.equations = shape.equations.struts > 0 ? &shape.equations : nullptr;
+    ride_.kind = shape.damper.kind;
+    ride_.law = shape.damper.law;
+    ride_.lags = shape.damper.lags;
     ride_.resists_more = shape.resists_more;
     ride_.control_law = shape.control;
     ride_.moderate = shape.moderate;
-    ride_.network = &shape.network;
+    ride_.network = &shape.damper.network;
     ride_.sample_time = shape.sample_time;
     ride_.relative_tolerance = options.relative_tolerance;
     ride_.absolute_tolerance = options.absolute_tolerance;
@@ -78,12 +71,12 @@ class LaneBatch {
     // Each vehicle as numbers, side by side.
     std::vector<LaneVehicle> lanes;
     for (const BatchVehicle* vehicle : vehicles_) lanes.push_back(lane_vehicle(*vehicle));
-    Rows numbers(lanes_, as_numbers(lanes[0].numbers).size()),
-        damper(lanes_, lanes[0].damper.size()), start(lanes_, lanes[0].start.size()),
-        control(lanes_, lanes[0].control.size()), sums(lanes_, kLaneResults),
-        trace(lanes_, options_.traces ? (ride_.samples + 1) * kLaneTraces : 0);
+    Rows numbers(lanes_, lanes[0].numbers.size()), damper(lanes_, lanes[0].damper.size()),
+        start(lanes_, lanes[0].start.size()), control(lanes_, lanes[0].control.size()),
+        sums(lanes_, place_of_tyre(plant(0).tyres.size())),
+        trace(lanes_, options_.traces ? (ride_.samples + 1) * rows_of_trace() : 0);
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
-      numbers.set(lane, as_numbers(lanes[lane].numbers));
+      numbers.set(lane, lanes[lane].numbers);
       damper.set(lane, lanes[lane].damper);
       start.set(lane, lanes[lane].start);
       control.set(lane, lanes[lane].control);
@@ -95,6 +88,7 @@ class LaneBatch {
     pilot.take(ride_);
     ride_.numbers = numbers.data();
     ride_.damper = damper.data();
+    ride_.damper_size = lanes[0].damper.size() / plant(0).struts.size();
     ride_.start = start.data();
     ride_.control_numbers = lanes[0].control.empty() ? nullptr : control.data();
     static_assert(sizeof(Biquad) == 5 * sizeof(double), "b0, b1, b2, a1, a2 without gaps");
@@ -112,9 +106,21 @@ class LaneBatch {
   }
 
  private:
+  const Plant& plant(std::size_t lane) const { return vehicles_[lane]->setting.plant; }
+  /// LaneRide::results: the first row of a strut, and of a tyre.
+  std::size_t place_of_strut(std::size_t strut) const {
+    return kLaneResults + strut * kLaneStrutResults;
+  }
+  std::size_t place_of_tyre(std::size_t tyre) const {
+    return place_of_strut(plant(0).struts.size()) + tyre * kLaneTyreResults;
+  }
+  std::size_t rows_of_trace() const {
+    return trace_rows(plant(0).size(), plant(0).struts.size(), plant(0).tyres.size());
+  }
+
   BatchResult result_of(const Rows& sums, std::size_t lane) const {
     BatchResult result{.in_lanes = true};
-    const auto sum = [&](LaneResult row) { return sums.at(row, lane); };
+    const auto sum = [&](std::size_t row) { return sums.at(row, lane); };
 
     // A ride that diverged counts up to there.
     std::size_t end = ride_.samples + 1;
@@ -123,40 +129,37 @@ class LaneBatch {
       result.diverged_at = ride_.sample_time * sum(kDivergedAt);
     }
     const double count = static_cast<double>(std::max(end, ride_.discarded + 1) - ride_.discarded);
-    const auto root_mean = [&](LaneResult row) { return std::sqrt(sum(row) / count); };
+    const auto root_mean = [&](std::size_t row) { return std::sqrt(sum(row) / count); };
+    const auto struts = static_cast<double>(plant(lane).struts.size());
 
-    result.measures = {.body_acceleration = root_mean(kAcceleration2),
-                       .weighted_acceleration = root_mean(kWeighted2),
-                       .vibration_dose = std::pow(sum(kWeighted4) * ride_.sample_time, 0.25),
-                       .tyre_load = root_mean(kLoad2),
-                       .tyre_deflection = root_mean(kTyreDeflection2),
-                       .deflection = root_mean(kDeflection2),
-                       .greatest_deflection = sum(kGreatestDeflection),
-                       .contact_lost = sum(kContactLost) / count,
-                       .energy = sum(kPower) * ride_.sample_time,
-                       .current = sum(kCurrentSum) / count};
+    BatchMeasures& m = result.measures;
+    m = {.body_acceleration = root_mean(kAcceleration2),
+         .weighted_acceleration = root_mean(kWeighted2),
+         .vibration_dose = std::pow(sum(kWeighted4) * ride_.sample_time, 0.25),
+         .contact_lost = sum(kContactLost) / count,
+         .energy = sum(kPower) * ride_.sample_time,
+         .current = sum(kCurrentSum) / (count * struts)};
+
+    // The worst strut, and the worst tyre.
+    for (std::size_t s = 0; s < plant(lane).struts.size(); ++s) {
+      m.deflection = std::max(m.deflection, root_mean(place_of_strut(s) + kDeflection2));
+      m.greatest_deflection =
+          std::max(m.greatest_deflection, sum(place_of_strut(s) + kGreatestDeflection));
+    }
+    for (std::size_t w = 0; w < plant(lane).tyres.size(); ++w) {
+      m.tyre_load = std::max(m.tyre_load, root_mean(place_of_tyre(w) + kLoad2));
+      m.tyre_deflection =
+          std::max(m.tyre_deflection, root_mean(place_of_tyre(w) + kTyreDeflection2));
+    }
     result.missed_tolerance = sum(kMissed) > 0;
     result.evaluations = static_cast<std::size_t>(sum(kEvaluations));
     return result;
   }
 
-  /// Channels in the order of LaneTrace.
+  /// Channels in the order of trace_rows().
   Record trace_of(const Rows& rows, std::size_t lane, const BatchResult& result) const {
-    static constexpr const char* kChannels[kLaneTraces][2] = {{"body", "m"},
-                                                              {"body_velocity", "m/s"},
-                                                              {"body_acceleration", "m/s^2"},
-                                                              {"wheel", "m"},
-                                                              {"wheel_velocity", "m/s"},
-                                                              {"wheel_acceleration", "m/s^2"},
-                                                              {"suspension_deflection", "m"},
-                                                              {"suspension_velocity", "m/s"},
-                                                              {"suspension_force", "N"},
-                                                              {"suspension_current", "A"},
-                                                              {"tyre_road", "m"},
-                                                              {"tyre_load", "N"}};
-
     Record record;
-    record.name = vehicles_[lane]->setting.plant.name;
+    record.name = plant(lane).name;
     record.condition = vehicles_[lane]->setting.ground.description();
     record.source = "simulation";
 
@@ -167,14 +170,30 @@ class LaneBatch {
     for (std::size_t k = 0; k < count; ++k)
       record.time.push_back(ride_.sample_time * static_cast<double>(k));
 
-    for (std::size_t row = 0; row < kLaneTraces; ++row) {
-      record.channels.push_back(
-          {.name = kChannels[row][0], .unit = kChannels[row][1], .origin = "simulated"});
+    const auto channel = [&](const std::string& name, const std::string& unit) {
+      record.channels.push_back({.name = name, .unit = unit, .origin = "simulated"});
       record.channels.back().samples.resize(count);
+    };
+    for (const Coordinate& c : plant(lane).coordinates) {
+      channel(c.name, c.unit);
+      channel(c.name + "_velocity", c.unit + "/s");
+      channel(c.name + "_acceleration", c.unit + "/s^2");
     }
+    for (const Strut& strut : plant(lane).struts) {
+      channel(strut.name + "_deflection", "m");
+      channel(strut.name + "_velocity", "m/s");
+      channel(strut.name + "_force", "N");
+      channel(strut.name + "_current", "A");
+    }
+    for (const Tyre& tyre : plant(lane).tyres) {
+      channel(tyre.name + "_road", "m");
+      channel(tyre.name + "_load", "N");
+    }
+
+    const std::size_t width = record.channels.size();
     for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t row = 0; row < kLaneTraces; ++row)
-        record.channels[row].samples[k] = rows.at(k * kLaneTraces + row, lane);
+      for (std::size_t row = 0; row < width; ++row)
+        record.channels[row].samples[k] = rows.at(k * width + row, lane);
     return record;
   }
 
@@ -224,14 +243,18 @@ BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
       m.current += i / static_cast<double>(current.size() * plant.struts.size());
   }
 
-  // The worst tyre.
+  // The worst tyre. Its deflection follows from wheel and road, since a strut may have its name.
   for (const Tyre& tyre : plant.tyres) {
-    const auto load = samples(tyre.name + "_load");
-    std::vector<double> more(load.begin(), load.end());
+    const auto load = samples(tyre.name + "_load"), road = samples(tyre.name + "_road");
+    std::vector<double> more(load.begin(), load.end()), deflection(road.size());
     for (double& value : more) value -= tyre.static_load;
+    for (std::size_t c = 0; c < plant.size(); ++c) {
+      const auto q = samples(plant.coordinates[c].name);
+      for (std::size_t k = 0; k < q.size(); ++k) deflection[k] += tyre.row[c] * q[k];
+    }
+    for (std::size_t k = 0; k < road.size(); ++k) deflection[k] -= road[k];
     m.tyre_load = std::max(m.tyre_load, root_mean_square(more));
-    m.tyre_deflection =
-        std::max(m.tyre_deflection, root_mean_square(samples(tyre.name + "_deflection")));
+    m.tyre_deflection = std::max(m.tyre_deflection, root_mean_square(deflection));
   }
   return m;
 }

@@ -41,13 +41,15 @@ struct BatchResult {
   Record trace;  ///< where wanted: channels named as those of simulate(), its main ones
 };
 
-/// Many vehicles side by side in the lanes of the processor, one result each. Lanes take quarter
-/// cars with any controller, sensors and ground whose damper is a static network (one of tanh,
-/// sigmoid or ReLU neurons) or a law that has lanes (lane_laws()), behind a driver without limited
-/// rate and sampling of its own; all others go through simulate() one by one. A result does not
-/// depend on what else is in the batch; batches of one or two vehicles, which ride on shorter
-/// vectors, may differ in the last digits. Roads take memory: give thousands of vehicles in blocks
-/// of some hundred. Throws Error as simulate() does, naming the vehicle.
+/// Many vehicles side by side in the lanes of the processor, one result each. Lanes take quarter,
+/// half and full cars, and other plants on tyres that are no larger, with any controller, sensors
+/// and ground that does not jump, whose dampers are static networks (of tanh, sigmoid or ReLU
+/// neurons) or of a law that has lanes (lane_laws()), of one kind in all struts and with numbers of
+/// their own, behind drivers without limited rate and sampling of their own; all others go through
+/// simulate() one by one (reason_against_lanes() says why). A result does not depend on what else
+/// is in the batch; batches of one or two vehicles, which ride on shorter vectors, may differ in
+/// the last digits. Roads take memory: give thousands of vehicles in blocks of some hundred. Throws
+/// Error as simulate() does, naming the vehicle.
 std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles,
                                         const BatchOptions& options);
 

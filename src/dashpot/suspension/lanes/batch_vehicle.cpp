@@ -6,7 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
-#include "dashpot/suspension/lanes/ride.h"
+#include "dashpot/suspension/lanes/lane_damper.h"
 
 namespace dashpot {
 namespace {
@@ -14,12 +14,15 @@ namespace {
 constexpr double kLongestSample = 2.5e-3;  // s: what the weighting of ISO 2631-1 can filter
 
 std::string against_plant(const Plant& plant) {
-  using Row = std::vector<double>;
-  const bool quarter_car = plant.size() == 2 && plant.struts.size() == 1 &&
-                           plant.tyres.size() == 1 && plant.ground.empty() &&
-                           !plant.struts[0].track && plant.struts[0].row == Row{1, -1} &&
-                           plant.struts[0].body_row == Row{1, 0} && plant.tyres[0].row == Row{0, 1};
-  return quarter_car ? "" : "the plant is no quarter car";
+  const auto stands_on_ground = [](const Strut& strut) { return strut.track.has_value(); };
+  if (plant.tyres.empty() || !plant.ground.empty()) return "the plant is no vehicle on tyres";
+  if (plant.struts.empty()) return "the plant has no place for a damper";
+  if (std::ranges::any_of(plant.struts, stands_on_ground))
+    return "a strut of the plant stands on the moving ground";
+  if (plant.size() > kMostLaneCoordinates || plant.struts.size() > kMostLaneCorners ||
+      plant.tyres.size() > kMostLaneCorners)
+    return "the plant has more coordinates, struts or tyres than a full car";
+  return "";
 }
 
 std::string against_network(const NetworkModel& model) {
@@ -48,11 +51,23 @@ std::string against_damper(const MountedDamper& damper) {
   return "the model " + damper.model->name() + " has no lanes";
 }
 
+/// Each damper, and whether all are of one kind.
+std::string against_dampers(const std::vector<MountedDamper>& dampers) {
+  for (const MountedDamper& damper : dampers)
+    if (const std::string reason = against_damper(damper); !reason.empty()) return reason;
+  const auto differs = [first = lane_damper_shape(dampers[0])](const MountedDamper& damper) {
+    return lane_damper_shape(damper) != first;
+  };
+  return std::any_of(dampers.begin() + 1, dampers.end(), differs)
+             ? "its dampers are of different kinds"
+             : "";
+}
+
 std::string against_ground(const BatchVehicle& vehicle) {
-  const std::vector<double> jumps =
-      vehicle.setting.ground.jumps(vehicle.setting.plant.tyres[0].behind);
-  return std::any_of(jumps.begin(), jumps.end(), [](double t) { return t > 0; }) ? "its road jumps"
-                                                                                 : "";
+  for (const Tyre& tyre : vehicle.setting.plant.tyres)
+    for (const double jump : vehicle.setting.ground.jumps(tyre.behind))
+      if (jump > 0) return "its road jumps";
+  return "";
 }
 
 }  // namespace
@@ -65,7 +80,7 @@ double sample_time_of(const BatchVehicle& vehicle) {
 
 std::string reason_against_lanes(const BatchVehicle& vehicle) {
   std::string reason = against_plant(vehicle.setting.plant);
-  if (reason.empty()) reason = against_damper(vehicle.setting.dampers.at(0));
+  if (reason.empty()) reason = against_dampers(vehicle.setting.dampers);
   if (reason.empty()) reason = against_ground(vehicle);
   if (reason.empty() && !(sample_time_of(vehicle) <= kLongestSample))
     reason = "its samples are further apart than " + format_number(kLongestSample) + " s";

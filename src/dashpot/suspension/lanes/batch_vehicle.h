@@ -18,8 +18,7 @@ struct BatchVehicle {
 /// s between the samples of a vehicle: its controller's, or 1 ms.
 double sample_time_of(const BatchVehicle& vehicle);
 
-/// Why a vehicle cannot ride in lanes, as a clause: "the plant is no quarter car"; empty where it
-/// can.
+/// Why a vehicle cannot ride in lanes, as a clause: "its road jumps"; empty where it can.
 std::string reason_against_lanes(const BatchVehicle& vehicle);
 
 /// Laws whose equations run in lanes, too, in alphabetical order.

@@ -1,36 +1,30 @@
 #include "dashpot/suspension/lanes/lane_pilot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "dashpot/suspension/lanes/lane_vehicle.h"
-#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
-namespace {
 
-struct RaisedGround final : GroundMotion {
-  std::string description() const override { return "1 m higher"; }
-  FootMotion foot(double, std::size_t, double) const noexcept override { return {1, 0}; }
-};
-
-}  // namespace
+LanePilot::Driver::Driver(const BatchVehicle& v)
+    : vehicle(&v),
+      forces(v.setting.plant, v.setting.ground),
+      sensors(v.sensors, v.setting.plant.struts.size(), v.limits.sample_time),
+      state(v.setting.controller ? v.setting.controller->state_size() : 0),
+      signals(v.setting.plant.struts.size()),
+      demands(signals.size()),
+      x(2 * v.setting.plant.size()),
+      heights(v.setting.plant.tyres.size()),
+      resting(v.setting.plant.size()) {
+  for (const MountedDamper& damper : v.setting.dampers) paths.emplace_back(damper, v.limits, 0);
+  if (v.setting.controller) v.setting.controller->reset(state);
+}
 
 LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t lanes)
     : lanes_(lanes) {
-  for (const BatchVehicle* vehicle : vehicles) {
-    const Setting& setting = vehicle->setting;
-    drivers_.push_back(
-        {vehicle,
-         Sensors(vehicle->sensors, 1, vehicle->limits.sample_time),
-         CommandPath(setting.dampers[0], vehicle->limits, 0),
-         std::vector<double>(setting.controller ? setting.controller->state_size() : 0),
-         {}});
-    if (!setting.controller) continue;
-    setting.controller->reset(drivers_.back().state);
-    PlantForces(setting.plant, RaisedGround()).resting_place(0, drivers_.back().resting);
-  }
+  drivers_.reserve(vehicles.size());
+  for (const BatchVehicle* vehicle : vehicles) drivers_.emplace_back(*vehicle);
 }
 
 void LanePilot::take(LaneRide& ride) {
@@ -49,54 +43,75 @@ void LanePilot::take(LaneRide& ride) {
 void LanePilot::ground(std::size_t lane, std::size_t first, double* heights,
                        double* rates) noexcept {
   const BatchVehicle& vehicle = *drivers_[std::min(lane, drivers_.size() - 1)].vehicle;
-  const Tyre& tyre = vehicle.setting.plant.tyres[0];
   const double half = 0.5 * sample_time_of(vehicle);
-  vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind,
-                              feet_);
-  for (std::size_t k = 0; k < kLaneNodes; ++k) {
-    heights[k * lanes_ + lane] = feet_[k].height;
-    rates[k * lanes_ + lane] = feet_[k].velocity;
+  for (const Tyre& tyre : vehicle.setting.plant.tyres) {
+    vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind,
+                                feet_);
+    for (std::size_t k = 0; k < kLaneNodes; ++k) {
+      heights[k * lanes_ + lane] = feet_[k].height;
+      rates[k * lanes_ + lane] = feet_[k].velocity;
+    }
+    heights += kLaneNodes * lanes_;
+    rates += kLaneNodes * lanes_;
   }
 }
 
 void LanePilot::control(const double* signals, double* commands, const std::int64_t* which) {
   for (std::size_t lane = 0; lane < drivers_.size(); ++lane)
-    if (which[lane]) commands[lane] = command(drivers_[lane], signals + lane, commands[lane]);
-  std::fill(commands + drivers_.size(), commands + lanes_, commands[drivers_.size() - 1]);
+    if (which[lane]) command(drivers_[lane], signals + lane, commands + lane);
+
+  // Further lanes go as the last driver's does.
+  const std::size_t struts = drivers_.front().signals.size();
+  for (std::size_t s = 0; s < struts; ++s, commands += lanes_)
+    std::fill(commands + drivers_.size(), commands + lanes_, commands[drivers_.size() - 1]);
 }
 
-double LanePilot::command(Driver& driver, const double* signals, double before) const {
-  const auto signal = [&](LaneSignal row) { return signals[row * lanes_]; };
+void LanePilot::command(Driver& driver, const double* signals, double* commands) const {
   const BatchVehicle& vehicle = *driver.vehicle;
+  const std::size_t struts = driver.signals.size(), coordinates = driver.resting.size();
+  const auto of_strut = [&](std::size_t s, LaneSignal row) {
+    return signals[(s * kLaneSignals + row) * lanes_];
+  };
 
-  // The true signals of this lane; heights counted from rest on the ground as it is.
-  StrutSignals strut{.body_velocity = signal(kBodyVelocity),
-                     .body_acceleration = signal(kBodyAcceleration),
-                     .wheel_velocity = signal(kWheelVelocity),
-                     .deflection = signal(kDeflection),
-                     .deflection_velocity = signal(kDeflectionVelocity),
-                     .force = signal(kForce),
-                     .current = signal(kCurrent)};
-  DamperInput seen{signal(kDeflection), signal(kDeflectionVelocity), signal(kCurrent)};
-  const std::array<double, 4> x{signal(kBody) - driver.resting[0] * signal(kGround),
-                                signal(kWheel) - driver.resting[1] * signal(kGround),
-                                signal(kBodyVelocity), signal(kWheelVelocity)};
+  // The true signals of this lane's struts.
+  for (std::size_t s = 0; s < struts; ++s)
+    driver.signals[s] = {.body_velocity = of_strut(s, kBodyVelocity),
+                         .body_acceleration = of_strut(s, kBodyAcceleration),
+                         .wheel_velocity = of_strut(s, kWheelVelocity),
+                         .deflection = of_strut(s, kDeflection),
+                         .deflection_velocity = of_strut(s, kDeflectionVelocity),
+                         .force = of_strut(s, kForce),
+                         .current = of_strut(s, kCurrent)};
 
-  // As the sensors see them.
-  const bool ideal = driver.sensors.ideal();
-  if (!ideal) {
-    driver.sensors.measure({&strut, 1});
-    seen = {strut.deflection, strut.deflection_velocity, strut.current};
+  // And the plant's state, heights counted from rest on the ground as it is.
+  const double* behind = signals + struts * kLaneSignals * lanes_;
+  for (double& value : driver.x) {
+    value = *behind;
+    behind += lanes_;
   }
+  for (double& height : driver.heights) {
+    height = *behind;
+    behind += lanes_;
+  }
+  driver.forces.resting_place(driver.heights, driver.resting);
+  for (std::size_t k = 0; k < coordinates; ++k) driver.x[k] -= driver.resting[k];
 
-  // The controller's demand as a current within the driver's limits. A NaN keeps the command.
-  DamperDemand demand;
-  vehicle.setting.controller->step({&strut, 1},
-                                   ideal ? std::span<const double>(x) : std::span<const double>(),
-                                   driver.state, {&demand, 1});
-  const double wanted = driver.path.command(demand, seen, signal(kForce));
-  const DriverOptions& limits = vehicle.setting.dampers[0].driver;
-  return std::isnan(wanted) ? before : std::clamp(wanted, limits.current_min, limits.current_max);
+  // The controller's demands as the sensors let it see them, as currents within the drivers'
+  // limits. A NaN keeps the command.
+  const bool ideal = driver.sensors.ideal();
+  if (!ideal) driver.sensors.measure(driver.signals);
+  vehicle.setting.controller->step(
+      driver.signals, ideal ? std::span<const double>(driver.x) : std::span<const double>(),
+      driver.state, driver.demands);
+  for (std::size_t s = 0; s < struts; ++s) {
+    const StrutSignals& seen = driver.signals[s];
+    const double wanted = driver.paths[s].command(
+        driver.demands[s], {seen.deflection, seen.deflection_velocity, seen.current},
+        of_strut(s, kForce));
+    const DriverOptions& limits = vehicle.setting.dampers[s].driver;
+    double& command = commands[s * lanes_];
+    if (!std::isnan(wanted)) command = std::clamp(wanted, limits.current_min, limits.current_max);
+  }
 }
 
 }  // namespace dashpot

@@ -6,6 +6,7 @@
 #include "dashpot/suspension/dampers/damper_state.h"
 #include "dashpot/suspension/lanes/batch_vehicle.h"
 #include "dashpot/suspension/lanes/ride.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
 
@@ -20,16 +21,22 @@ class LanePilot {
 
  private:
   struct Driver {
+    explicit Driver(const BatchVehicle& vehicle);
     const BatchVehicle* vehicle;
+    PlantForces forces;
     Sensors sensors;
-    CommandPath path;
-    std::vector<double> state;  ///< of the controller
-    double resting[2];          ///< m, where the plant rests on ground that is 1 m higher
+    std::vector<CommandPath> paths;  ///< one per strut
+    std::vector<double> state;       ///< of the controller
+    // Room for command(): what the controller sees, strut by strut, and what it wants.
+    std::vector<StrutSignals> signals;
+    std::vector<DamperDemand> demands;
+    std::vector<double> x, heights, resting;
   };
   // LaneRide::ground and LaneRide::control.
   void ground(std::size_t lane, std::size_t first, double* heights, double* rates) noexcept;
   void control(const double* signals, double* commands, const std::int64_t* which);
-  double command(Driver& driver, const double* signals, double before) const;
+  /// signals and commands: of this driver's lane, in rows.
+  void command(Driver& driver, const double* signals, double* commands) const;
 
   std::size_t lanes_;
   std::vector<Driver> drivers_;

@@ -3,19 +3,42 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
-#include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/suspension/dampers/damper_state.h"
 #include "dashpot/suspension/plants/linear.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
 namespace {
 
-/// The plant's own part: M q'' = -K q - C q' - row F + tyre P.
-void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
+/// Adds numbers one behind the other, as rows of lanes have them.
+template <class Numbers>
+void add_numbers(const Numbers& numbers, std::vector<double>& all) {
+  static_assert(std::is_trivially_copyable_v<Numbers> && sizeof numbers % sizeof(double) == 0);
+  const auto* first = reinterpret_cast<const double*>(&numbers);
+  all.insert(all.end(), first, first + sizeof numbers / sizeof(double));
+}
+
+StrutNumbers<double> strut_numbers(const Strut& strut, const MountedDamper& damper) {
+  return {resistance_of(strut), 1 / strut.friction_speed, damper.driver.lag_rate,
+          model_lag_of(damper)};
+}
+
+/// Whether a plant is body and wheel with a strut between and a tyre below, as QuarterCarNumbers
+/// has them.
+bool is_quarter_car(const Plant& plant) {
+  using Row = std::vector<double>;
+  return plant.size() == 2 && plant.struts.size() == 1 && plant.tyres.size() == 1 &&
+         plant.struts[0].row == Row{1, -1} && plant.struts[0].body_row == Row{1, 0} &&
+         plant.tyres[0].row == Row{0, 1};
+}
+
+/// M q'' = -K q - C q' - row F + tyre P.
+void set_quarter_car(const Plant& plant, const MountedDamper& damper, LaneVehicle& lane) {
   const LinearPlant linear = linear_plant(plant);
   const std::vector<double>& m = linear.mass;
+  QuarterCarNumbers<double> n;
 
   // The inverse of M.
   const double determinant = m[0] * m[3] - m[1] * m[2];
@@ -33,55 +56,62 @@ void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
     n.by_force[i] = inverse[i][1] - inverse[i][0];
     n.by_push[i] = inverse[i][1];
   }
+  n.tyre = contact_of(plant.tyres[0], plant.tyres_may_lift);
+  n.strut = strut_numbers(plant.struts[0], damper);
+  add_numbers(n, lane.numbers);
 }
 
-/// Whether no neuron of the first layer exceeds kMostAtRest at any of the driver's currents.
-bool is_moderate(const Mlp& mlp, const LaneNetwork& shape, const DriverOptions& driver) {
-  const double current = std::max(std::abs(driver.current_min), std::abs(driver.current_max));
-  const std::size_t inputs = mlp.layers[0], neurons = mlp.layers[1];
-  for (std::size_t n = 0; n < neurons; ++n) {
-    double sum = std::abs(mlp.parameters[inputs * neurons + n]);
-    for (std::size_t i = 0; i < inputs; ++i)
-      if (shape.inputs[i] == LaneInput::Current)
-        sum += current * std::abs(mlp.parameters[n * inputs + i]);
-    if (!(sum <= kMostAtRest)) return false;
+/// Any other plant, by the equations that simulate() has.
+void set_equations(const BatchVehicle& vehicle, LaneVehicle& lane) {
+  const Plant& plant = vehicle.setting.plant;
+  const PlantForces forces(plant, vehicle.setting.ground);
+  const std::size_t n = plant.size(), struts = plant.struts.size(), tyres = plant.tyres.size();
+  LaneEquations& equations = lane.shape.equations;
+  equations.coordinates = n;
+  equations.struts = struts;
+  equations.tyres = tyres;
+
+  // Row by row what is not 0.
+  std::size_t row = 0;
+  const auto add = [&](const double* values, std::size_t count, std::size_t first_column) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (values[k] == 0) continue;
+      equations.columns[lane.numbers.size()] = static_cast<std::uint8_t>(first_column + k);
+      lane.numbers.push_back(values[k]);
+    }
+  };
+  const auto end_row = [&] {
+    equations.begins[++row] = static_cast<std::uint16_t>(lane.numbers.size());
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    add(&forces.by_state()[k * 2 * n], 2 * n, 0);
+    add(&forces.by_strut()[k * struts], struts, 2 * n);
+    add(&forces.by_tyre()[k * tyres], tyres, 2 * n + struts);
+    end_row();
   }
-  return true;
-}
+  const auto add_row = [&](const std::vector<double>& values) {
+    add(values.data(), n, 0);
+    end_row();
+  };
+  for (const Strut& strut : plant.struts) add_row(strut.row);
+  for (const Strut& strut : plant.struts) add_row(strut.body_row);
+  for (const Tyre& tyre : plant.tyres) add_row(tyre.row);
 
-void set_network(const NetworkModel& model, const DriverOptions& driver, LaneVehicle& lane) {
-  const Mlp mlp = on_raw_inputs(model.members()[0]);
-  LaneNetwork& shape = lane.shape.network;
-  shape.count = mlp.layers.size() - 1;
-  for (std::size_t i = 0; i < model.inputs().size(); ++i)
-    shape.inputs[i] = model.inputs()[i] == "displacement" ? LaneInput::Displacement
-                      : model.inputs()[i] == "velocity"   ? LaneInput::Velocity
-                                                          : LaneInput::Current;
-  for (std::size_t l = 0; l < shape.count; ++l)
-    shape.layers[l] = {mlp.layers[l], mlp.layers[l + 1], mlp.activation(l + 1)};
-  lane.shape.moderate = is_moderate(mlp, shape, driver);
-  lane.damper = mlp.parameters;
-  lane.damper.push_back(mlp.output_scale);
-  lane.damper.push_back(mlp.output_mean + model.offset());
-}
-
-void set_law(const LawModel& model, LaneVehicle& lane) {
-  const std::size_t count = model.law().params.size();
-  lane.shape.kind = LaneDamperKind::Law;
-  lane.shape.law = static_cast<std::size_t>(std::ranges::find(kLaneLaws, model.law().name) -
-                                            std::begin(kLaneLaws));
-  lane.damper.assign(kLanePowers * count, 0);
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t power = 0; power < model.parameters().coefficients[k].size(); ++power)
-      lane.damper[power * count + k] = model.parameters().coefficients[k][power];
-  lane.numbers.model_lag = model.lag_rate();
+  // Tyres and struts.
+  for (const Tyre& tyre : plant.tyres)
+    add_numbers(contact_of(tyre, plant.tyres_may_lift), lane.numbers);
+  for (std::size_t s = 0; s < struts; ++s)
+    add_numbers(strut_numbers(plant.struts[s], vehicle.setting.dampers[s]), lane.numbers);
 }
 
 /// The place of the vehicle's control law in kLaneControls, where it sees the true signals and its
-/// demand leads straight to a current; else kNoLaneControl.
+/// demands lead straight to currents; else kNoLaneControl.
 std::size_t control_law_of(const BatchVehicle& vehicle, const ControlDescription& description) {
-  const MountedDamper& damper = vehicle.setting.dampers[0];
-  if (vehicle.sensors.in_car || damper.inverse || damper.loop.is_closed()) return kNoLaneControl;
+  const auto is_indirect = [](const MountedDamper& damper) {
+    return damper.inverse || damper.loop.is_closed();
+  };
+  if (vehicle.sensors.in_car || std::ranges::any_of(vehicle.setting.dampers, is_indirect))
+    return kNoLaneControl;
   return static_cast<std::size_t>(std::ranges::find(kLaneControls, description.law) -
                                   std::begin(kLaneControls));
 }
@@ -112,63 +142,48 @@ void set_control(const BatchVehicle& vehicle, LaneVehicle& lane) {
   lane.shape.control = control_law_of(vehicle, description);
   if (lane.shape.control == kNoLaneControl) return;
 
-  // The currents that its two demands lead to.
-  const MountedDamper& damper = vehicle.setting.dampers[0];
-  CommandPath path(damper, vehicle.limits, 0);
-  const auto current = [&](double damping) {
-    return std::clamp(path.command({DamperDemand::Kind::Damping, damping}, {}, 0),
-                      damper.driver.current_min, damper.driver.current_max);
-  };
+  // The currents that its two demands lead to, strut by strut.
   const auto [soft, hard] = demands_of(*vehicle.setting.controller);
-  lane.control.assign(kLaneControlNumbers, 0);
-  if (!description.parameters.empty()) lane.control[kControlParameter] = description.parameters[0];
-  lane.control[kSoftCurrent] = current(soft);
-  lane.control[kHardCurrent] = current(hard);
-}
-
-/// Command, the currents in coil and model, the law's states: after a long rest.
-std::vector<double> start_of(const MountedDamper& damper, const LaneVehicle& lane) {
-  const double command =
-      std::clamp(damper.current, damper.driver.current_min, damper.driver.current_max);
-  std::vector<double> state(damper.model->state_size());
-  damper.model->rest({0, 0, damper.current}, state);
-  double inner = command;
-  if (lane.numbers.model_lag > 0) {
-    inner = state.back();
-    state.pop_back();
+  for (const MountedDamper& damper : vehicle.setting.dampers) {
+    CommandPath path(damper, vehicle.limits, 0);
+    const auto current = [&](double damping) {
+      return std::clamp(path.command({DamperDemand::Kind::Damping, damping}, {}, 0),
+                        damper.driver.current_min, damper.driver.current_max);
+    };
+    std::array<double, kLaneControlNumbers> numbers{};
+    if (!description.parameters.empty()) numbers[kControlParameter] = description.parameters[0];
+    numbers[kSoftCurrent] = current(soft);
+    numbers[kHardCurrent] = current(hard);
+    lane.control.insert(lane.control.end(), numbers.begin(), numbers.end());
   }
-  state.insert(state.begin(), {command, command, inner});
-  return state;
 }
 
 }  // namespace
 
 LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   const Plant& plant = vehicle.setting.plant;
-  const MountedDamper& damper = vehicle.setting.dampers[0];
-
-  // The plant.
+  const std::vector<MountedDamper>& dampers = vehicle.setting.dampers;
   LaneVehicle lane{};
-  set_plant(plant, lane.numbers);
-  lane.numbers.tyre = contact_of(plant.tyres[0], plant.tyres_may_lift);
-  lane.numbers.strut = resistance_of(plant.struts[0]);
-  lane.numbers.friction_slope = 1 / plant.struts[0].friction_speed;
-  lane.numbers.driver_lag = damper.driver.lag_rate;
-
-  // The damper.
-  if (const auto* network = model_as<NetworkModel>(*damper.model))
-    set_network(*network, damper.driver, lane);
+  if (is_quarter_car(plant))
+    set_quarter_car(plant, dampers[0], lane);
   else
-    set_law(*model_as<LawModel>(*damper.model), lane);
+    set_equations(vehicle, lane);
 
-  // The shape, by which vehicles are grouped.
-  const Strut& strut = plant.struts[0];
-  lane.shape.lags = (lane.numbers.driver_lag > 0) + (lane.numbers.model_lag > 0);
-  lane.shape.resists_more = plant.tyres_may_lift || strut.friction > 0 ||
-                            strut.extension_stop > 0 || strut.compression_stop > 0;
+  // The dampers, strut by strut.
+  lane.shape.damper = lane_damper_shape(dampers[0]);
+  lane.shape.moderate = lane.shape.equations.struts == 0 && is_moderate(dampers[0]);
+  for (const MountedDamper& damper : dampers) {
+    add_lane_damper(damper, lane.damper);
+    add_lane_start(damper, lane.start);
+  }
+
+  // The rest of the shape, by which vehicles are grouped.
+  lane.shape.resists_more =
+      plant.tyres_may_lift || std::ranges::any_of(plant.struts, [](const Strut& strut) {
+        return strut.friction > 0 || strut.extension_stop > 0 || strut.compression_stop > 0;
+      });
   set_control(vehicle, lane);
   lane.shape.sample_time = sample_time_of(vehicle);
-  lane.start = start_of(damper, lane);
   return lane;
 }
 

@@ -3,18 +3,16 @@
 #include <vector>
 
 #include "dashpot/suspension/lanes/batch_vehicle.h"
-#include "dashpot/suspension/lanes/ride.h"
+#include "dashpot/suspension/lanes/lane_damper.h"
 
 namespace dashpot {
 
 /// The properties that vehicles must have in common to ride side by side.
 struct LaneShape {
-  LaneDamperKind kind = LaneDamperKind::Network;
-  LaneNetwork network;        ///< of a network
-  std::size_t law = 0;        ///< of a law: its place in kLaneLaws
-  std::size_t lags = 0;       ///< currents behind a lag: 0, 1 or 2
+  LaneEquations equations;    ///< empty of quarter cars
+  LaneDamperShape damper;     ///< of all struts
   bool resists_more = false;  ///< stops, friction or a tyre that may lift
-  bool moderate = false;      ///< as LaneRide's
+  bool moderate = false;      ///< as LaneRide's, of quarter cars
   bool controlled = false;
   std::size_t control = kNoLaneControl;  ///< of a law that has lanes: its place in kLaneControls
   double sample_time = 0;                ///< s
@@ -24,8 +22,7 @@ struct LaneShape {
 /// One vehicle as numbers, ready to be put into rows.
 struct LaneVehicle {
   LaneShape shape;
-  QuarterCarNumbers<double> numbers;
-  std::vector<double> damper, start, control;  ///< as LaneRide's
+  std::vector<double> numbers, damper, start, control;  ///< as LaneRide's
 };
 
 /// The vehicle must have no reason_against_lanes().

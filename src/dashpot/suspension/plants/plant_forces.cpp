@@ -103,12 +103,19 @@ void PlantForces::accelerate(double t, std::span<const double> x,
 }
 
 void PlantForces::resting_place(double t, std::span<double> q) const noexcept {
-  const std::size_t tyres = plant_.tyres.size();
   for (double& value : q) value = 0;
-  for (std::size_t w = 0; w < tyres; ++w) {
-    const double z = foot(w, t).height;
-    for (std::size_t k = 0; k < q.size(); ++k) q[k] += resting_[k * tyres + w] * z;
-  }
+  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) add_resting(w, foot(w, t).height, q);
+}
+
+void PlantForces::resting_place(std::span<const double> heights,
+                                std::span<double> q) const noexcept {
+  for (double& value : q) value = 0;
+  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) add_resting(w, heights[w], q);
+}
+
+void PlantForces::add_resting(std::size_t tyre, double height, std::span<double> q) const noexcept {
+  const std::size_t tyres = plant_.tyres.size();
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] += resting_[k * tyres + tyre] * height;
 }
 
 }  // namespace dashpot

@@ -32,10 +32,16 @@ class PlantForces {
   /// q'' with these forces of struts.
   void accelerate(double t, std::span<const double> x, std::span<const double> strut_forces,
                   std::span<double> out) const noexcept;
-  /// Where the plant would rest on the ground as it is, q.
+  /// Where the plant would rest on the ground as it is, q; or with the ground at these heights, m,
+  /// under its tyres.
   void resting_place(double t, std::span<double> q) const noexcept;
+  void resting_place(std::span<const double> heights, std::span<double> q) const noexcept;
 
   const LinearPlant& linear() const { return linear_; }
+  /// q'' row by row: by x, by strut forces, by the road's pushes on the tyres.
+  const std::vector<double>& by_state() const { return by_state_; }
+  const std::vector<double>& by_strut() const { return by_strut_; }
+  const std::vector<double>& by_tyre() const { return by_tyre_; }
 
  private:
   const Plant& plant_;
@@ -45,8 +51,9 @@ class PlantForces {
   std::vector<TyreContact<double>> contacts_;         ///< one per tyre
   /// The push of the road on a wheel, N, without the pull of a tyre that has lifted.
   double push(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+  /// Adds where the plant would rest with this tyre alone on this height, m.
+  void add_resting(std::size_t tyre, double height, std::span<double> q) const noexcept;
 
-  /// q'' row by row: by x, by strut forces, by the tyres' pushes.
   std::vector<double> by_state_, by_strut_, by_tyre_;
   std::vector<double> shaken_;   ///< M e; empty where the ground does not shake
   std::vector<double> resting_;  ///< size x tyres: K^-1 row k

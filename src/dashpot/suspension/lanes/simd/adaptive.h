@@ -42,16 +42,19 @@ class AdaptiveSteps {
     if constexpr (Loop::kExists) looped(state.z) = car_.damper.loop.folded(looped(state.z));
   }
   /// Forces at the start of a sample, after the command has changed in some lanes.
-  [[gnu::noinline, gnu::flatten]] void refresh(const State& state, Lane command, LaneMask changed,
-                                               Lane road) {
-    keep(slope(state, command, road), changed);
+  [[gnu::noinline, gnu::flatten]] void refresh(const State& state, const Lane* command,
+                                               LaneMask changed, const RoadPush* road) {
+    keep(slope(state, *command, road->node[0]), changed);
   }
-  /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
-  Lane force() const { return first_.force; }
-  Lane acceleration(std::size_t k) const { return first_.d[2 + k]; }
+  /// At the present state: the damper's force, N, and the accelerations of the coordinates, m/s^2.
+  Lane force(std::size_t) const { return first_.force; }
+  const Lane* acceleration() const { return first_.d + 2; }
 
   /// Tries one step in these lanes. Returns those that have reached the end of their sample.
-  LaneMask step(State& state, Lane command, const RoadPush& road, LaneMask riding) {
+  LaneMask step(State& state, const Lane* commands, const RoadPush* roads, LaneMask riding) {
+    const Lane command = *commands;
+    const RoadPush& road = *roads;
+
     // As long as was proposed, or as much as is left of the sample.
     const double whole = ride_.sample_time, least = whole / 256;
     const Lane left = whole - done_;
@@ -85,8 +88,8 @@ class AdaptiveSteps {
     // the command.
     const LaneMask arrived = accepted & last;
     if constexpr (kLags == 1)
-      state.currents.coil =
-          (arrived & (car_.numbers.driver_lag > 0)) ? state.currents.inner : state.currents.coil;
+      state.currents.coil = (arrived & (car_.numbers.strut.driver_lag > 0)) ? state.currents.inner
+                                                                            : state.currents.coil;
     return arrived;
   }
 
@@ -102,11 +105,11 @@ class AdaptiveSteps {
     // Currents: first-order lags on the way from the command to the one that drives the model.
     if constexpr (kLags > 0) car_.damper.set_current(s.currents.inner);
     if constexpr (kLags == 1)
-      out.d[4 + kStates] =
-          (car_.numbers.driver_lag + car_.numbers.model_lag) * (command - s.currents.inner);
+      out.d[4 + kStates] = (car_.numbers.strut.driver_lag + car_.numbers.strut.model_lag) *
+                           (command - s.currents.inner);
     if constexpr (kLags == 2) {
-      out.d[4 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
-      out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
+      out.d[4 + kStates] = car_.numbers.strut.model_lag * (s.currents.coil - s.currents.inner);
+      out.d[5 + kStates] = car_.numbers.strut.driver_lag * (command - s.currents.coil);
     }
 
     // The damper's states as its law has them.

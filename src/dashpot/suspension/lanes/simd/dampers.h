@@ -10,6 +10,7 @@ namespace {
 //   force(x, v, z)            N, x m and v m/s of the damper, extension positive
 //   derivative(x, v, z, dz)   z' of its states
 //   Loop, loop                its hysteresis loop, a LoopPath, if it has one
+// It is made from a ride and the number of its strut.
 
 /// For dampers without a hysteresis loop.
 struct NoLoop {
@@ -27,7 +28,8 @@ class NetworkLanes {
  public:
   static constexpr std::size_t kStates = 0;
   using Loop = NoLoop;
-  explicit NetworkLanes(const LaneRide& ride) : shape_(*ride.network), weights_(ride.damper) {
+  explicit NetworkLanes(const LaneRide& ride, std::size_t strut = 0)
+      : shape_(*ride.network), weights_(ride.damper + strut * ride.damper_size * kWidth) {
     const std::size_t inputs = shape_.layers[0].inputs;
     for (std::size_t i = 0; i < inputs; ++i) {
       const LaneInput input = shape_.inputs[i];
@@ -150,7 +152,8 @@ template <class P, auto Force, auto Derivative, std::size_t kCount, class LawLoo
 class LawLanes {
  public:
   static constexpr std::size_t kStates = kCount;
-  explicit LawLanes(const LaneRide& ride) : by_power_(ride.damper) {
+  explicit LawLanes(const LaneRide& ride, std::size_t strut = 0)
+      : by_power_(ride.damper + strut * ride.damper_size * kWidth) {
     LaneMask loop_varies{};
     for (std::size_t k = 0; k < kParameters; ++k) {
       LaneMask varies{};

@@ -25,10 +25,13 @@ struct Moving {
 /// F N of the damper, friction and stops (extension positive), P N of the road on the wheel.
 /// `Damper` gives its force by set_current(), force() and derivative() (dampers.h), or by expand()
 /// (tanh_neurons.h). The numbers of LaneRide are read in place, a Lane for each double.
+///
+/// LaneRun asks for a vehicle's parts by their numbers; here there is one strut and one tyre, 0.
 template <class Damper>
 class QuarterCarLanes {
  public:
   static constexpr std::size_t kStates = Damper::kStates;
+  static constexpr std::size_t kMostCoordinates = 2, kMostStruts = 1, kMostTyres = 1;
   using State = Moving<kStates>;
   using Numbers = QuarterCarNumbers<Lane>;
   static_assert(sizeof(Numbers) == kWidth * sizeof(QuarterCarNumbers<double>),
@@ -44,15 +47,15 @@ class QuarterCarLanes {
   /// Friction and stops of the strut, N.
   Lane strut_extra(const Lane* x) const {
     if (!ride_.resists_more) return Lane{};
-    const Lane sliding = tanh(numbers.friction_slope * (x[2] - x[3]));
-    return strut_resistance(numbers.strut, x[0] - x[1], sliding);
+    const Lane sliding = tanh(numbers.strut.friction_slope * (x[2] - x[3]));
+    return strut_resistance(numbers.strut.resistance, x[0] - x[1], sliding);
   }
   /// Load of the tyre on the road under this push, N.
-  Lane load_on_road(const Lane* x, Lane pushed) const {
+  Lane load_on_road(const Lane* x, Lane pushed, std::size_t = 0) const {
     return tyre_load(numbers.tyre, pushed, x[1], x[3]);
   }
   /// The part of the road's push that reaches the wheel, N.
-  Lane push_at_wheel(const Lane* x, Lane pushed) const {
+  Lane push_at_wheel(const Lane* x, Lane pushed, std::size_t = 0) const {
     if (!ride_.resists_more) return pushed;
     return push_on_wheel(numbers.tyre, pushed, load_on_road(x, pushed));
   }
@@ -66,6 +69,22 @@ class QuarterCarLanes {
   Lane driving(const Currents& currents) const {
     return ride_.lags > 0 ? currents.inner : currents.coil;
   }
+
+  static constexpr std::size_t coordinates() { return 2; }
+  static constexpr std::size_t struts() { return 1; }
+  static constexpr std::size_t tyres() { return 1; }
+  static Currents& currents(State& state, std::size_t) { return state.currents; }
+  static Lane* damper_states(State& state, std::size_t) { return state.z; }
+  Damper& damper_of(std::size_t) { return damper; }
+  const StrutNumbers<Lane>& strut(std::size_t) const { return numbers.strut; }
+  const TyreContact<Lane>& tyre(std::size_t) const { return numbers.tyre; }
+  /// Deflection of the strut or, from speeds, the speed of that.
+  static Lane deflection(const Lane* of, std::size_t) { return of[0] - of[1]; }
+  static Lane upper_end(const Lane* of, std::size_t) { return of[0]; }
+  static Lane lower_end(const Lane* of, std::size_t) { return of[1]; }
+  static Lane wheel(const Lane* of, std::size_t) { return of[1]; }
+  /// Not finite where some of the motion is not.
+  static Lane sum_of(const Lane* x) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
   Damper damper;
   const Numbers& numbers;

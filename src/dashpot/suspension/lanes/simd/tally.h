@@ -5,44 +5,59 @@
 namespace dashpot {
 namespace {
 
-/// Sums and greatest values of a ride, from its samples: the rows of LaneResult.
+/// Sums and greatest values of a ride, from its samples: the rows of LaneResult, and those of each
+/// strut and tyre. Values are added in the lanes that `counts` marks.
+template <std::size_t kMostStruts, std::size_t kMostTyres>
 class Tally {
  public:
-  /// load_at_rest: N, of the tyre.
-  Tally(const LaneRide& ride, Lane load_at_rest) : ride_(ride), load_at_rest_(load_at_rest) {}
+  explicit Tally(const LaneRide& ride) : ride_(ride) {}
 
-  /// acceleration of the body m/s^2, load of the tyre N, deflections m, speed m/s and force N of
-  /// the damper, current A.
-  struct Sample {
-    Lane acceleration, load, tyre_deflection, deflection, speed, force, current;
-  };
-
-  /// Adds a sample in the lanes that `counts` marks among `which`. The weighting filter runs in all
-  /// of `which`, from the start of the ride on.
-  void add(const Sample& s, LaneMask which, LaneMask counts) {
-    const Lane weighted = weigh(s.acceleration, which);
-
-    counts &= which;
-    const auto put = [&](LaneResult row, Lane value) { sums_[row] += counts ? value : Lane{}; };
-    const Lane more = s.load - load_at_rest_;
-    put(kAcceleration2, s.acceleration * s.acceleration);
-    put(kWeighted2, weighted * weighted);
-    put(kWeighted4, weighted * weighted * weighted * weighted);
-    put(kLoad2, more * more);
-    put(kTyreDeflection2, s.tyre_deflection * s.tyre_deflection);
-    put(kDeflection2, s.deflection * s.deflection);
-    put(kContactLost, s.load <= 0 ? all(1) : Lane{});
-    put(kPower, s.force * s.speed);
-    put(kCurrentSum, s.current);
-    Lane& greatest = sums_[kGreatestDeflection];
-    greatest = counts ? fmax(fabs(s.deflection), greatest) : greatest;
+  /// Acceleration of the body, m/s^2. The weighting filter runs in all of `which`, from the start
+  /// of the ride on.
+  void add_body(Lane acceleration, LaneMask which, LaneMask counts) {
+    const Lane weighted = weigh(acceleration, which);
+    put(kAcceleration2, acceleration * acceleration, counts);
+    put(kWeighted2, weighted * weighted, counts);
+    put(kWeighted4, weighted * weighted * weighted * weighted, counts);
   }
+  /// Deflection m and speed m/s of a strut, force N and current A of its damper.
+  void add_strut(std::size_t strut, Lane deflection, Lane speed, Lane force, Lane current,
+                 LaneMask counts) {
+    Lane(&own)[kLaneStrutResults] = struts_[strut];
+    own[kDeflection2] += counts ? deflection * deflection : Lane{};
+    Lane& greatest = own[kGreatestDeflection];
+    greatest = counts ? fmax(fabs(deflection), greatest) : greatest;
+    put(kPower, force * speed, counts);
+    put(kCurrentSum, current, counts);
+  }
+  /// Load N, the same at rest, and deflection m of a tyre.
+  void add_tyre(std::size_t tyre, Lane load, Lane at_rest, Lane deflection, LaneMask counts) {
+    const Lane more = load - at_rest;
+    Lane(&own)[kLaneTyreResults] = tyres_[tyre];
+    own[kLoad2] += counts ? more * more : Lane{};
+    own[kTyreDeflection2] += counts ? deflection * deflection : Lane{};
+  }
+  /// Whether some tyre has no load.
+  void add_lost_contact(LaneMask lost, LaneMask counts) {
+    put(kContactLost, lost ? all(1) : Lane{}, counts);
+  }
+
   Lane& row(LaneResult row) { return sums_[row]; }
-  void store_all() const {
-    for (std::size_t k = 0; k < kLaneResults; ++k) store(ride_.results + k * kWidth, sums_[k]);
+  void store_all(std::size_t struts, std::size_t tyres) const {
+    double* at = ride_.results;
+    const auto put_down = [&](Lane value) {
+      store(at, value);
+      at += kWidth;
+    };
+    for (const Lane sum : sums_) put_down(sum);
+    for (std::size_t s = 0; s < struts; ++s)
+      for (const Lane sum : struts_[s]) put_down(sum);
+    for (std::size_t w = 0; w < tyres; ++w)
+      for (const Lane sum : tyres_[w]) put_down(sum);
   }
 
  private:
+  void put(LaneResult row, Lane value, LaneMask counts) { sums_[row] += counts ? value : Lane{}; }
   /// The weighting's sections one after the other, each in the transposed direct form II:
   /// out = b0 in + s0,  s0 = b1 in - a1 out + s1,  s1 = b2 in - a2 out.
   Lane weigh(Lane in, LaneMask which) {
@@ -58,8 +73,8 @@ class Tally {
   }
 
   const LaneRide& ride_;
-  Lane load_at_rest_;
   Lane sums_[kLaneResults]{};
+  Lane struts_[kMostStruts][kLaneStrutResults]{}, tyres_[kMostTyres][kLaneTyreResults]{};
   Lane memory_[kWeightingSections][2]{};
 };
 

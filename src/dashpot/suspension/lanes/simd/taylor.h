@@ -39,16 +39,17 @@ class TaylorSteps {
 
   void begin(State&) {}
   /// Forces at the start of a sample, after the command has changed in some lanes.
-  void refresh(const State& state, Lane, LaneMask changed, Lane road) {
-    keep(state.x, damper_at(state.x), road, changed);
+  void refresh(const State& state, const Lane*, LaneMask changed, const RoadPush* road) {
+    keep(state.x, damper_at(state.x), road->node[0], changed);
   }
-  /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
-  Lane force() const { return force_; }
-  Lane acceleration(std::size_t k) const { return acceleration_[k]; }
+  /// At the present state: the damper's force, N, and the accelerations of the coordinates, m/s^2.
+  Lane force(std::size_t) const { return force_; }
+  const Lane* acceleration() const { return acceleration_; }
 
   /// Over one sample in these lanes, all of which reach its end: in as many steps as the lane needs
   /// that needs most. The others take steps of length 0 meanwhile.
-  LaneMask step(State& state, Lane, const RoadPush& road, LaneMask riding) {
+  LaneMask step(State& state, const Lane*, const RoadPush* roads, LaneMask riding) {
+    const RoadPush& road = *roads;
     Lane done{}, left = riding ? all(1) : Lane{};
     do {
       // Terms of the series around the present state, and how far they carry.
