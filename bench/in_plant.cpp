@@ -6,7 +6,8 @@
 //   bench_in_plant minute LAW...      the same over 60 s, three numbers of the plant unknown
 //   bench_in_plant unmeasured TRUTH CLASS SECONDS LAW...   the same on a road that nothing measures
 //   bench_in_plant cover REPETITIONS TRUTH CLASS SECONDS LAW, sensors TRUTH CLASS SECONDS LAW,
-//   building SECONDS LAW...           see bench/without_road.cpp
+//   covered REPETITIONS TRUTH CLASS SECONDS LAW NOISE, building SECONDS LAW...
+//                                     see bench/without_road.cpp
 
 #include "dashpot/machine/in_plant.h"
 

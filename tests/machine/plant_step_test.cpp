@@ -150,3 +150,32 @@ TEST_CASE(
     CHECK(state[3] == wheel);
   }
 }
+
+TEST_CASE("plant step: a run beside another one that hardly differs is what it is alone") {
+  const DrivenPlant plant = quarter_car();
+  const PlantDriving driving = road(2, 0.002, 1, PlantMethod::StraightForce, 1);
+  const PlantSensorPlace sensors[] = {{PlantQuantity::Acceleration, 0},
+                                      {PlantQuantity::DamperForce, 0}};
+  const auto run = [&](const DamperModel& damper, const RunBeside& beside) {
+    std::vector<double> state(4 + damper.state_size());
+    damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(4));
+    std::vector<std::vector<double>> shown;
+    REQUIRE(plant.run(damper, driving, driving.samples, sensors, state, shown, beside));
+    return shown;
+  };
+  const LawModel damper = load_parameters("spencer1997");
+  RunTangent tangent;
+  const auto kept = run(damper, {.keep = &tangent});
+  CHECK(tangent.size() == driving.samples - 1);
+  CHECK(distance(kept, run(damper, {})) < 1e-6);
+
+  // A millionth off, and so far off that each step must search for itself.
+  for (const auto& [share, close] : {std::pair{1e-6, 1e-9}, {0.2, 1e-5}}) {
+    CAPTURE(share);
+    Dependence stronger = damper.parameters();
+    for (double& c : stronger.coefficients[damper.law().index_of("alpha")]) c *= 1 + share;
+    const LawModel other(damper.law(), stronger, damper.drive_unit(), damper.lag_rate());
+    RunTangent own;
+    CHECK(distance(run(other, {.follow = &tangent}), run(other, {.keep = &own})) < close);
+  }
+}

@@ -122,3 +122,14 @@ TEST_CASE("the iteration limit is reported, with the best point so far") {
   CHECK(report.iterations == 3);
   CHECK(report.cost < 12.1);  // at the start: 0.5 * 24.2
 }
+
+TEST_CASE("a point is described as the end of a search that goes nowhere") {
+  const LeastSquaresProblem problem = rosenbrock();
+  const LeastSquaresReport end = solve(problem, {-1.2, 1});
+  const LeastSquaresReport there = describe_at(problem, end.x);
+  CHECK(there.x == end.x);
+  CHECK(there.cost == end.cost);
+  CHECK(there.normal_matrix == end.normal_matrix);
+  CHECK(there.part_matrices == end.part_matrices);
+  CHECK(there.gradient == end.gradient);
+}

@@ -26,3 +26,16 @@ TEST_CASE("a constant has no power") {
   const PowerSpectrum spectrum = power_spectrum(std::vector<double>(10, 2.5), 0.1);
   for (const double line : spectrum.power) CHECK_CLOSE(line, 0, 0, 1e-28);
 }
+
+TEST_CASE("the samples come back from half their spectrum; lengths of small factors") {
+  for (const std::size_t count : {720, 675, 14}) {
+    std::vector<double> x(count);
+    for (std::size_t k = 0; k < count; ++k) x[k] = std::sin(0.37 * static_cast<double>(k * k % 91));
+    const std::vector<double> back = from_half_spectrum(half_spectrum(x), count);
+    REQUIRE(back.size() == count);
+    for (std::size_t k = 0; k < count; ++k) CHECK_CLOSE(back[k], x[k], 0, 1e-12);
+  }
+  CHECK(quick_length(720) == 720);
+  CHECK(quick_length(727) == 720);
+  CHECK(quick_length(1) == 1);
+}

@@ -7,7 +7,7 @@
 namespace dashpot {
 namespace {
 
-constexpr int kReach = 24;        // samples to either side
+constexpr int kReach = static_cast<int>(kSamplesAround);
 constexpr double kKaiser = 10.0;  // about 100 dB below what passes
 
 /// Modified Bessel function of order 0, by its series.

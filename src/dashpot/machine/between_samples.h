@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -6,6 +7,9 @@ namespace dashpot {
 
 // A measured input between its samples. An integrator asks for it there, and a straight line would
 // be wrong by several percent at a fifth of the sample rate.
+
+/// How many samples to either side a value between samples is made of.
+constexpr std::size_t kSamplesAround = 24;
 
 /// A signal and its rate on a finer grid: `times` points per sample, the last one at the last
 /// sample.

@@ -12,6 +12,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
+#include "dashpot/machine/beside_noise.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
@@ -21,8 +22,6 @@
 
 namespace dashpot {
 namespace {
-
-constexpr std::size_t kMostSteps = 16;  // of the integrator per sample, unasked
 
 LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations,
                                    double tolerance) {
@@ -232,16 +231,17 @@ std::vector<std::string> profiled(const InPlantReport& report, const InPlantOpti
 
 /// Solves with each sensor's scale, takes the rms that is left as the new one, and solves again
 /// until the scales stay. A single sensor needs no second round.
-LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> x,
-                                 const InPlantOptions& options) {
+LeastSquaresReport solve_weighed(const InPlantSetup& setup, PlantResiduals& residuals,
+                                 std::vector<double> x, const InPlantOptions& options) {
   constexpr int kRounds = 4;
-  constexpr double kSame = 0.03, kTolerance = 1e-7;
+  const bool goes_on = has_noisy_inputs(setup);  // from near by is then enough
+  const double same = goes_on ? 0.1 : 0.03, tolerance = goes_on ? 1e-4 : 1e-7;
   LeastSquaresReport solved;
   for (int round = 0; round < kRounds; ++round) {
     options.monitor.report("fit, round " + std::to_string(round + 1), 0.4 + 0.1 * round);
     solved = solve(residuals.problem(0, options.threads), std::move(x),
-                   solver_options(options, options.iterations, kTolerance));
-    if (!std::isfinite(solved.cost) || residuals.reweigh(solved.x) <= kSame) break;
+                   solver_options(options, options.iterations, tolerance));
+    if (!std::isfinite(solved.cost) || residuals.reweigh(solved.x) <= same) break;
     x = solved.x;
   }
   return solved;
@@ -261,8 +261,6 @@ Domain domain_of(const std::vector<InPlantTrace>& traces, const DriveRange& driv
   return domain;
 }
 
-constexpr double kStepShare = 0.05;  // of the error that is left: what half a step may change
-
 /// The fit; where the integrator's step is too long for its error, once more by the other method if
 /// that is nearer, or in twice as many. `cases` are those of the residuals.
 LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
@@ -270,17 +268,20 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
                                          const InPlantOptions& options, PlantCases& cases,
                                          PlantResiduals& residuals, std::vector<double> x,
                                          InPlantReport& report) {
-  // Weights and steps as the start, which is near by now, already asks for.
+  // Weights and steps as the start, which is near by now, already asks for; a fit that goes on
+  // beside the noise takes its steps there.
+  const bool goes_on = has_noisy_inputs(setup);
   if (cases.method == PlantMethod::StraightForce) residuals.reweigh(x);
-  while (cases.method == PlantMethod::StraightForce && options.steps == 0 &&
+  while (!goes_on && cases.method == PlantMethod::StraightForce && options.steps == 0 &&
          cases.steps < kMostSteps && residuals.step_error(x, recordings) > kStepShare)
     cases = make_cases(setup, recordings, 2 * cases.steps, cases.method);
 
   for (;;) {
-    LeastSquaresReport solved = solve_weighed(residuals, x, options);
+    LeastSquaresReport solved = solve_weighed(setup, residuals, x, options);
     report.iterations += solved.iterations;
     const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
     if (is_finite) x = solved.x;
+    if (is_finite && goes_on && cases.method == PlantMethod::StraightForce) return solved;
     report.step_error = is_finite ? residuals.step_error(x, recordings) : INFINITY;
     const bool was_explicit = cases.method == PlantMethod::RungeKutta;
     const bool is_lost = was_explicit && (!is_finite || residuals.diverges(x));
@@ -331,13 +332,21 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
 
   // What can be told is said before the fit.
-  const LeastSquaresReport at =
-      solve(residuals.problem(0, options.threads), x, solver_options(options, 0, 1e-8));
+  const LeastSquaresReport at = describe_at(residuals.problem(0, options.threads), x);
   report.knowable = knowable_of(residuals, at.part_matrices, x.size());
   residuals.leave_out_forgotten(at);
 
-  const LeastSquaresReport solved =
+  LeastSquaresReport solved =
       solve_in_enough_steps(setup, recordings, options, cases, residuals, x, report);
+
+  // Once more beside the noise of inputs and sensors.
+  NoisyFit beside{.cases = cases, .noise = {}, .found = {}, .spread = {}};
+  const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
+  if (is_finite && has_noisy_inputs(setup)) {
+    solved = solve_beside_noise(setup, recordings, options, start.scale, cases, residuals, solved,
+                                beside, report);
+    report.iterations += solved.iterations;
+  }
   if (report.step_error > kStepShare)
     report.warnings.push_back("the integrator's step changes a sensor by " +
                               format_number(100 * report.step_error, 2) +
@@ -346,7 +355,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   report.method = cases.method;
   report.message = solved.message;
   report.seconds = cpu_seconds() - started;
-  if (solved.x.empty() || !std::isfinite(solved.cost)) {
+  if (!is_finite) {
     report.message = "the plant diverges wherever the fit begins: " + solved.message;
     return report;
   }
@@ -354,15 +363,25 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
       solved.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
 
   // Intervals: correlated residuals count as one, and sensors differ.
-  const Covariance spread = residuals.covariance_at(solved);
+  const Covariance spread = beside.spread.n > 0 ? beside.spread : residuals.covariance_at(solved);
   add_parameters(residuals, solved.x, spread, report);
+  if (!beside.noise.empty()) add_noise(setup, beside.found, report);
   add_warnings(residuals, spread, report);
+  report.advice.profiles =
+      profiles_of({setup, cases, unknowns, residuals, solved, start.plant, start.scale}, spread,
+                  profiled(report, options), options);
+  residuals.look_at_lines(nullptr);
+  cases = beside.cases;
 
-  // What would help, and how far doubtful numbers may lie.
-  const EndedFit ended{setup, cases, unknowns, residuals, solved, start.plant, start.scale};
-  if (!options.grade.empty())
-    report.advice = advise(ended, find_sensor_grade(options.grade, "grade"), options);
-  report.advice.profiles = profiles_of(ended, spread, profiled(report, options), options);
+  // What would help.
+  if (!options.grade.empty()) {
+    if (!beside.noise.empty())
+      solved = describe_at(residuals.problem(0, options.threads), solved.x);
+    std::vector<ParameterProfile> profiles = std::move(report.advice.profiles);
+    report.advice = advise({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
+                           find_sensor_grade(options.grade, "grade"), options);
+    report.advice.profiles = std::move(profiles);
+  }
 
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));

@@ -37,7 +37,7 @@ struct RoadPrior {
 struct PlantInputChannel {
   std::string channel;  ///< empty: nothing measures it, and `road` says what is known of it
   PlantInputPlace place;
-  double noise = 0;  ///< standard deviation of what it measures, SI; 0: taken as exact
+  double noise = 0;  ///< standard deviation of what it measures, SI; 0: unknown (beside_noise.h)
   std::optional<RoadPrior> road = {};
 };
 

@@ -19,11 +19,6 @@ constexpr std::array kInputWords = {
     std::pair{"force", PlantInput::Force}, std::pair{"ground", PlantInput::Ground},
     std::pair{"ground_acceleration", PlantInput::GroundAcceleration}};
 
-std::string_view unit_of_input(PlantInput input) {
-  constexpr std::array kUnits{"N", "m", "m/s^2"};  // in the order of PlantInput
-  return kUnits[static_cast<std::size_t>(input)];
-}
-
 struct QuantityWord {
   std::string_view word;
   PlantQuantity quantity;
@@ -242,7 +237,7 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
   const std::string kind = reader.string("kind"), at = reader.string("at", "");
   const PlantInput* known = find_input(kind);
   if (input.channel.empty()) input.road = read_road(reader, kind, value);
-  if (known && !input.road) input.noise = read_deviation(reader, "noise", unit_of_input(*known));
+  if (known && !input.road) input.noise = read_deviation(reader, "noise", unit_of(*known));
   reader.finish();
   if (!known)
     throw Error(value.where(), "unknown kind of input '" + kind + "'",

@@ -267,8 +267,7 @@ Information information_of(const EndedFit& fit, const Manoeuvre& manoeuvre,
   for (std::size_t k = first; k < x.size(); ++k) x[k] *= manoeuvre.amplitude;
   x.insert(x.end(), fit.solved.x.begin() + static_cast<std::ptrdiff_t>(fit.residuals.first_delay()),
            fit.solved.x.end());
-  const LeastSquaresReport at =
-      solve(residuals.problem(0, threads), x, {.max_iterations = 0, .threads = threads});
+  const LeastSquaresReport at = describe_at(residuals.problem(0, threads), x, {.threads = threads});
   if (at.part_matrices.empty() || !std::isfinite(at.cost)) return {};
   Information sum(x.size() * x.size());
   for (std::size_t s = 0; s < at.part_matrices.size(); ++s)

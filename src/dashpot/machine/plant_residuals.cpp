@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "dashpot/base/parallel.h"
@@ -252,18 +253,24 @@ std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, st
 bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
                          const LawModel& damper, const PlantCase& one, std::size_t place,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                         Shown& shown) const {
+                         Shown& shown, const RunBeside& beside) const {
   std::vector<double> state = state_at_first(x, place, plant.size(), damper);
   if (one.driving.method == PlantMethod::StraightForce) plant.settle(damper, one.driving, state);
-  if (!plant.run(damper, one.driving, samples, sensors, state, shown)) return false;
 
-  // What a late sensor shows is older.
-  for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s) {
-    double delay = setup_->sensors[s].delay;
+  // What a late sensor shows is older; a little further, so that it is known between samples.
+  std::vector<double> delays;
+  for (std::size_t s = 0; s < sensors_.size(); ++s) {
+    delays.push_back(setup_->sensors[s].delay);
     for (std::size_t d = 0; d < delays_.size(); ++d)
-      if (delays_[d] == s) delay = size_[first_delay_ + d] * x[first_delay_ + d];
-    if (delay != 0) shown[s] = delayed(shown[s], one.driving.sample_time, delay);
+      if (delays_[d] == s) delays[s] = size_[first_delay_ + d] * x[first_delay_ + d];
   }
+  const bool is_late = std::ranges::any_of(delays, [](double delay) { return delay != 0; });
+  const std::size_t further =
+      is_late ? std::min(samples + kSamplesAround, one.driving.samples) : samples;
+  if (!plant.run(damper, one.driving, further, sensors, state, shown, beside)) return false;
+  for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s)
+    if (delays[s] != 0) shown[s] = delayed(shown[s], one.driving.sample_time, delays[s]);
+  for (std::vector<double>& one_shown : shown) one_shown.resize(samples);
   return true;
 }
 
@@ -271,17 +278,22 @@ std::size_t PlantResiduals::end_of(const PlantCase& one, std::size_t samples) co
   return samples > 0 ? std::min(one.training, one.first + samples) : one.training;
 }
 
+std::size_t PlantResiduals::residuals_of(std::size_t place, std::size_t samples) const {
+  if (noise_) return (*noise_)[place].lines() * (*noise_)[place].rows_per_line();
+  const PlantCase& one = cases_->all[place];
+  return sensors_.size() * (end_of(one, samples) - one.first);
+}
+
 /// First residual of a recording.
 std::size_t PlantResiduals::part_of(std::size_t place, std::size_t samples) const {
   std::size_t at = 0;
-  for (std::size_t c = 0; c < place; ++c)
-    at += sensors_.size() * (end_of(cases_->all[c], samples) - cases_->all[c].first);
+  for (std::size_t c = 0; c < place; ++c) at += residuals_of(c, samples);
   return at;
 }
 
 /// The residuals of one recording, which begin at r[0].
 bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
-                                  std::span<double> r) const {
+                                  std::span<double> r, const RunBeside& beside) const {
   const PlantCase& one = cases_->all[place];
   const std::size_t end = end_of(one, samples), length = end - one.first;
 
@@ -293,28 +305,35 @@ bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, 
     model = LawModel::constant(model.law(), parameters);
   }
   Shown shown;
-  if (!run(x, equations(x), model, one, place, end, sensors_, shown)) return false;
+  if (!run(x, equations(x), model, one, place, end, sensors_, shown, beside)) return false;
+  std::vector<double> samples_beyond(noise_ ? sensors_.size() * length : 0);
+  const std::span<double> beyond = noise_ ? std::span(samples_beyond) : r;
   for (std::size_t s = 0; s < sensors_.size(); ++s) {
-    const std::span<double> out = r.subspan(s * length, length);
+    const std::span<double> out = beyond.subspan(s * length, length);
     for (std::size_t k = 0; k < length; ++k)
       out[k] = (shown[s][one.first + k] - one.measured[s][one.first + k]) / scale_[s];
     const double offset = mean_of(out);
     for (double& value : out) value -= offset;
   }
+  if (noise_) (*noise_)[place].put_lines(beyond, length, r);
   return true;
 }
 
-bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples,
-                              std::span<double> r) const {
-  for (std::size_t c = 0; c < cases_->all.size(); ++c)
-    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)))) return false;
-  return true;
+bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples, std::span<double> r,
+                              int threads, std::vector<RunTangent>* keep) const {
+  std::atomic<bool> complete = true;
+  parallel_for(cases_->all.size(), threads, [&](std::size_t c) {
+    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)),
+                      {.keep = keep ? &(*keep)[c] : nullptr}))
+      complete = false;
+  });
+  return complete;
 }
 
 /// One column by a forward difference. A state at the beginning acts on its recording alone.
 bool PlantResiduals::difference(std::span<const double> x, std::size_t samples,
-                                std::span<const double> r, std::size_t k,
-                                std::span<double> column) const {
+                                std::span<const double> r, const std::vector<RunTangent>& follow,
+                                std::size_t k, std::span<double> column) const {
   constexpr double kStep = 1e-6;
   const bool of_one = k >= first_state_ && k < first_delay_;
   const std::size_t own = of_one ? (k - first_state_) / states() : 0;
@@ -334,7 +353,8 @@ bool PlantResiduals::difference(std::span<const double> x, std::size_t samples,
                   column.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
         continue;
       }
-      finite = evaluate_one(moved, c, samples, column.subspan(first));
+      finite = evaluate_one(moved, c, samples, column.subspan(first),
+                            {.follow = follow.empty() ? nullptr : &follow[c]});
       for (std::size_t i = first; i < end; ++i) column[i] = (column[i] - r[i]) / step;
     }
     if (finite) return true;
@@ -344,10 +364,13 @@ bool PlantResiduals::difference(std::span<const double> x, std::size_t samples,
 
 bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                               std::span<double* const> columns, int threads) const {
-  if (!evaluate(x, samples, r)) return false;
+  const bool is_straight = cases_->method == PlantMethod::StraightForce;
+  std::vector<RunTangent> tangents(is_straight ? cases_->all.size() : 0);
+  if (!evaluate(x, samples, r, threads, is_straight ? &tangents : nullptr)) return false;
   std::atomic<bool> complete = true;
   parallel_for(x.size(), threads, [&](std::size_t k) {
-    if (columns[k] && !difference(x, samples, r, k, {columns[k], r.size()})) complete = false;
+    if (columns[k] && !difference(x, samples, r, tangents, k, {columns[k], r.size()}))
+      complete = false;
   });
   return complete;
 }
@@ -355,11 +378,17 @@ bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, st
 LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) const {
   LeastSquaresProblem problem;
   problem.parts.clear();
-  for (const PlantCase& one : cases_->all)
-    for (std::size_t s = 0; s < sensors_.size(); ++s) {
-      problem.parts.push_back(problem.residuals);
-      problem.residuals += end_of(one, samples) - one.first;
-    }
+
+  // A part is a sensor of a recording, or some neighbouring frequencies of it.
+  constexpr std::size_t kLines = 20;
+  for (std::size_t c = 0; c < cases_->all.size(); ++c) {
+    const std::size_t count = residuals_of(c, samples);
+    const std::size_t part =
+        noise_ ? kLines * (*noise_)[c].rows_per_line() : count / sensors_.size();
+    for (std::size_t first = 0; first < count; first += part)
+      problem.parts.push_back(problem.residuals + first);
+    problem.residuals += count;
+  }
   problem.lower = lower_;
   problem.upper = upper_;
 
@@ -372,12 +401,40 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
     }
   for (const std::size_t k : forgotten_) problem.lower[k] = problem.upper[k] = 0;
 
-  problem.residual = [this, samples](std::span<const double> x, std::span<double> r) {
-    return evaluate(x, samples, r);
+  problem.residual = [this, samples, threads](std::span<const double> x, std::span<double> r) {
+    return evaluate(x, samples, r, threads);
   };
-  problem.jacobian = [this, samples, threads](std::span<const double> x, std::span<double> r,
-                                              std::span<double* const> columns) {
-    return jacobian(x, samples, r, columns, threads);
+
+  // The end of a search is asked for twice: the columns of the last point are kept.
+  struct Last {
+    std::vector<double> x, r;
+    std::vector<std::vector<double>> columns;
+  };
+  problem.jacobian = [this, samples, threads, last = std::make_shared<Last>()](
+                         std::span<const double> x, std::span<double> r,
+                         std::span<double* const> columns) {
+    if (!std::ranges::equal(x, last->x)) {
+      last->x.clear();
+      last->columns.assign(x.size(), {});
+    }
+    std::vector<double*> missing(columns.size(), nullptr);
+    bool is_complete = !last->x.empty();
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (columns[k] && last->columns[k].empty()) {
+        missing[k] = columns[k];
+        is_complete = false;
+      }
+    if (is_complete)
+      std::ranges::copy(last->r, r.begin());
+    else if (!jacobian(x, samples, r, missing, threads))
+      return false;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      if (missing[k]) last->columns[k].assign(columns[k], columns[k] + r.size());
+      if (columns[k] && !missing[k]) std::ranges::copy(last->columns[k], columns[k]);
+    }
+    last->x.assign(x.begin(), x.end());
+    last->r.assign(r.begin(), r.end());
+    return true;
   };
   return problem;
 }
@@ -403,7 +460,7 @@ void PlantResiduals::leave_out_forgotten(const LeastSquaresReport& at) {
 double PlantResiduals::reweigh(std::span<const double> x) {
   const LeastSquaresProblem whole = problem();
   std::vector<double> r(whole.residuals);
-  if (!evaluate(x, 0, r)) return 0;
+  if (!evaluate(x, 0, r, 1)) return 0;
 
   // The rms that is left at each sensor, over all recordings.
   std::vector<double> squares(sensors_.size()), counts(sensors_.size());
@@ -423,10 +480,22 @@ double PlantResiduals::reweigh(std::span<const double> x) {
   return change;
 }
 
+InPlantSetup PlantResiduals::setup_at(std::span<const double> x) const {
+  InPlantSetup setup = *setup_;
+  for (std::size_t k = 0; k < plant_unknowns(); ++k)
+    setup.known.emplace_back(setup.unknown[k].name, described(k, x).value);
+  setup.unknown.clear();
+  for (std::size_t d = 0; d < delays_.size(); ++d) {
+    setup.sensors[delays_[d]].delay = size_[first_delay_ + d] * x[first_delay_ + d];
+    setup.sensors[delays_[d]].finds_delay = false;
+  }
+  return setup;
+}
+
 Covariance PlantResiduals::covariance_at(const LeastSquaresReport& solved) const {
   const LeastSquaresProblem whole = problem();
   std::vector<double> r(whole.residuals);
-  evaluate(solved.x, 0, r);
+  evaluate(solved.x, 0, r, 1);
   std::vector<std::pair<std::size_t, std::size_t>> segments;
   for (std::size_t part = 0; part < whole.parts.size(); ++part)
     segments.emplace_back(

@@ -8,10 +8,14 @@
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/input_noise.h"
 #include "dashpot/machine/plant_recording.h"
 #include "dashpot/numerics/least_squares.h"
 
 namespace dashpot {
+
+constexpr std::size_t kMostSteps = 16;  ///< of the integrator per sample, unasked
+constexpr double kStepShare = 0.05;     ///< of the error that is left: what half a step may change
 
 /// One recording, ready to be run.
 struct PlantCase {
@@ -63,6 +67,12 @@ class PlantResiduals : public InPlantUnknowns {
   /// that goes straight alone.
   void leave_out_forgotten(const LeastSquaresReport& at);
   Covariance covariance_at(const LeastSquaresReport& solved) const;
+  /// From now on all residuals (not those of a shorter time) are what is shown at each frequency at
+  /// which the inputs are known, per recording of these, which must outlive this; nullptr: samples
+  /// again.
+  void look_at_lines(const std::vector<RecordingNoise>* noise) { noise_ = noise; }
+  /// The setup with all that x says: the plant's numbers and delays.
+  InPlantSetup setup_at(std::span<const double> x) const;
 
   std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
   std::size_t first_delay() const { return first_delay_; }
@@ -94,15 +104,19 @@ class PlantResiduals : public InPlantUnknowns {
                                      std::size_t coordinates, const LawModel& damper) const;
   bool run(std::span<const double> x, const DrivenPlant& plant, const LawModel& damper,
            const PlantCase& one, std::size_t place, std::size_t samples,
-           std::span<const PlantSensorPlace> sensors, Shown& shown) const;
+           std::span<const PlantSensorPlace> sensors, Shown& shown,
+           const RunBeside& beside = {}) const;
   std::size_t end_of(const PlantCase& one, std::size_t samples) const;
-  bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r) const;
+  bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r, int threads,
+                std::vector<RunTangent>* keep = nullptr) const;
   bool evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
-                    std::span<double> r) const;
+                    std::span<double> r, const RunBeside& beside) const;
   bool jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                 std::span<double* const> columns, int threads) const;
   bool difference(std::span<const double> x, std::size_t samples, std::span<const double> r,
-                  std::size_t k, std::span<double> column) const;
+                  const std::vector<RunTangent>& follow, std::size_t k,
+                  std::span<double> column) const;
+  std::size_t residuals_of(std::size_t place, std::size_t samples) const;
   std::size_t part_of(std::size_t place, std::size_t samples) const;
   bool keeps_states_near() const;
   bool is_of_damper(std::size_t state) const;
@@ -120,6 +134,7 @@ class PlantResiduals : public InPlantUnknowns {
   std::size_t first_state_ = 0, first_delay_ = 0;  ///< places among the unknowns
   std::vector<double> size_, lower_, upper_;
   std::vector<std::size_t> forgotten_;  ///< unknowns that are left out
+  const std::vector<RecordingNoise>* noise_ = nullptr;
 };
 
 }  // namespace dashpot

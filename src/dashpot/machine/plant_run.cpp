@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "dashpot/error.h"
-#include "dashpot/machine/plant_step.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/plants/linear.h"
 
@@ -45,6 +44,11 @@ std::string unit_of(PlantQuantity quantity) {
       break;
   }
   return "N";
+}
+
+std::string unit_of(PlantInput input) {
+  constexpr std::array kUnits{"N", "m", "m/s^2"};  // in the order of PlantInput
+  return kUnits[static_cast<std::size_t>(input)];
 }
 
 DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
@@ -185,11 +189,11 @@ bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
 
 bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
                       std::span<const PlantSensorPlace> sensors, std::span<double> state,
-                      std::vector<std::vector<double>>& shown) const {
+                      std::vector<std::vector<double>>& shown, const RunBeside& beside) const {
   shown.assign(sensors.size(), std::vector<double>(samples));
   return driving.method == PlantMethod::RungeKutta
              ? run_by_runge_kutta(damper, driving, samples, sensors, state, shown)
-             : run_under_straight_force(damper, driving, samples, sensors, state, shown);
+             : run_under_straight_force(damper, driving, samples, sensors, state, shown, beside);
 }
 
 bool DrivenPlant::run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,
@@ -226,10 +230,13 @@ bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const Plan
                                            std::size_t samples,
                                            std::span<const PlantSensorPlace> sensors,
                                            std::span<double> state,
-                                           std::vector<std::vector<double>>& shown) const {
+                                           std::vector<std::vector<double>>& shown,
+                                           const RunBeside& beside) const {
   const double h = driving.sample_time / static_cast<double>(driving.steps);
   const PlantStep plant({size_, damping_, stiffness_, by_force_, by_value_, by_rate_}, h);
   DamperStep step(damper, h);
+  if (beside.keep) step.keep(*beside.keep);
+  if (beside.follow) step.follow(*beside.follow);
   std::array<double, kMostStates> end, acceleration;
   const std::span<double> own = state.subspan(2 * size_);
   DamperInput from = damper_input(driving, 0, state.data());

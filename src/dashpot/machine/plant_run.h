@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dashpot/damper_model.h"
+#include "dashpot/machine/plant_step.h"
 #include "dashpot/plant.h"
 
 namespace dashpot {
@@ -35,8 +36,9 @@ enum class PlantQuantity {
   DamperForce          ///< N, positive where it resists extension
 };
 
-/// The unit of what a sensor of this quantity shows.
+/// The unit of what a sensor of this quantity shows, and of an input.
 std::string unit_of(PlantQuantity quantity);
+std::string unit_of(PlantInput input);
 
 /// A sensor's quantity and, where it is one of a coordinate, which.
 struct PlantSensorPlace {
@@ -72,6 +74,13 @@ struct PlantDriving {
   }
 };
 
+/// Runs under a force that goes straight: one that keeps its steps in a tangent, or one that
+/// differs hardly from it and follows it at half the price.
+struct RunBeside {
+  RunTangent* keep = nullptr;
+  const RunTangent* follow = nullptr;
+};
+
 /// The plant as numbers: q'' = forcing - C q' - K q - row F, all by the inverse of the mass.
 class DrivenPlant {
  public:
@@ -87,7 +96,7 @@ class DrivenPlant {
   /// of them is not finite. By Runge-Kutta the damper must be one that flows.
   bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, std::span<double> state,
-           std::vector<std::vector<double>>& shown) const;
+           std::vector<std::vector<double>>& shown, const RunBeside& beside = {}) const;
   /// Brings the states of the damper over the sample before the first one, at the velocity of that:
   /// what a sharp hysteresis forgets at once is then no leap within the first step.
   void settle(const DamperModel& damper, const PlantDriving& driving,
@@ -115,8 +124,8 @@ class DrivenPlant {
                           std::span<double> state, std::vector<std::vector<double>>& shown) const;
   bool run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
                                 std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                                std::span<double> state,
-                                std::vector<std::vector<double>>& shown) const;
+                                std::span<double> state, std::vector<std::vector<double>>& shown,
+                                const RunBeside& beside) const;
   void accelerations(const PlantDriving& driving, std::size_t point, const double* state,
                      double force, double* out) const;
   bool show(const PlantDriving& driving, std::size_t sample,

@@ -127,6 +127,56 @@ double DamperStep::answer(const DamperMotion& motion, double force, std::span<co
 }
 
 double DamperStep::end_force(const DamperMotion& motion, std::span<double> state) {
+  if (followed_) return solve_beside(motion, (*followed_)[step_++], state);
+  if (!kept_) return solve(motion, state);
+  States before;
+  std::ranges::copy(state, before.begin());
+  const double force = solve(motion, state);
+  return keep_tangent(motion, force, {before.data(), state.size()}, state);
+}
+
+/// One step of Newton's method from where the step that is followed has led; where that is too far
+/// off, a search of its own.
+double DamperStep::solve_beside(const DamperMotion& motion, const StepTangent& tangent,
+                                std::span<double> state) {
+  constexpr double kNear = 1e-4;  // of the force
+  const double presumed = tangent.force + beyond_;
+  States end;
+  const double excess = answer(motion, presumed, state, end) - presumed;
+  largest_ = std::max(largest_, std::abs(presumed));
+  double force = presumed + excess / (1 - tangent.answer);
+  if (std::abs(force - presumed) <= kNear * largest_)
+    for (std::size_t i = 0; i < state.size(); ++i)
+      state[i] = end[i] + (force - presumed) * tangent.states[i];
+  else
+    force = solve(motion, state);
+  beyond_ = force - tangent.force;
+  before_ = motion.force;
+  is_first_ = false;
+  return force;
+}
+
+/// The step once more at the force that was found and a little above it, and a step of Newton's
+/// method from there.
+double DamperStep::keep_tangent(const DamperMotion& motion, double force,
+                                std::span<const double> before, std::span<double> state) {
+  constexpr double kLittle = 1e-5;  // of the force
+  const double above = kLittle * std::max(largest_, 1e-300);
+  States ends[2];
+  const double answers[] = {answer(motion, force, before, ends[0]),
+                            answer(motion, force + above, before, ends[1])};
+  StepTangent tangent{.force = force, .answer = (answers[1] - answers[0]) / above, .states = {}};
+  if (!(tangent.answer < 0.9)) tangent.answer = 0;
+  tangent.force += (answers[0] - force) / (1 - tangent.answer);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    tangent.states[i] = (ends[1][i] - ends[0][i]) / above;
+    state[i] = ends[0][i] + (tangent.force - force) * tangent.states[i];
+  }
+  kept_->push_back(tangent);
+  return tangent.force;
+}
+
+double DamperStep::solve(const DamperMotion& motion, std::span<double> state) {
   constexpr int kMost = 20;
   constexpr double kClose = 1e-6;  // of the largest force, before the last correction
   States ends[2];

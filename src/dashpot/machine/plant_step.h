@@ -53,10 +53,25 @@ struct DamperMotion {
   double force;           ///< at the start
 };
 
+/// Where a run arrived at the end of a step, and what each newton that had been presumed there
+/// would have changed: of the damper's answer, and of its states.
+struct StepTangent {
+  double force = 0, answer = 0;
+  std::array<double, 16> states = {};
+};
+/// Over all steps of a run.
+using RunTangent = std::vector<StepTangent>;
+
 /// A damper's way over steps of one length.
 class DamperStep {
  public:
   DamperStep(const DamperModel& damper, double length);
+
+  /// From now on each step is kept in `tangent`, behind those that are there, at two answers of
+  /// the damper more; or each step begins beside that of `tangent`, of a run that differs hardly,
+  /// so that one answer is enough.
+  void keep(RunTangent& tangent) { kept_ = &tangent; }
+  void follow(const RunTangent& tangent) { followed_ = &tangent; }
 
   /// The force at the end, at which the damper arrives under the motion that this force makes;
   /// `state` is brought there. Found by the secant method, between bounds where the law resists.
@@ -67,6 +82,11 @@ class DamperStep {
   double answer(const DamperMotion& motion, double force, std::span<const double> state,
                 States& end) const;
   void advance(const DamperInput& from, const DamperInput& to, std::span<double> state) const;
+  double solve(const DamperMotion& motion, std::span<double> state);
+  double solve_beside(const DamperMotion& motion, const StepTangent& tangent,
+                      std::span<double> state);
+  double keep_tangent(const DamperMotion& motion, double force, std::span<const double> before,
+                      std::span<double> state);
 
   const DamperModel& damper_;
   const LawModel* law_;  ///< null unless it has a step of its own
@@ -76,6 +96,10 @@ class DamperStep {
   double slope_ = 0;    ///< of the answer over the force that is presumed
   double largest_ = 0;  ///< force so far
   bool is_first_ = true;
+  RunTangent* kept_ = nullptr;
+  const RunTangent* followed_ = nullptr;
+  std::size_t step_ = 0;
+  double beyond_ = 0;  ///< what the step before ended above the one that is followed, N
 };
 
 }  // namespace dashpot

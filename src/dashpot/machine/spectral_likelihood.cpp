@@ -8,6 +8,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/plant_at_line.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/numerics/spectrum.h"
@@ -24,157 +25,6 @@ constexpr double kLongest = 0.01;  // cycle/m, below which a road counts as leve
 /// ISO 8608 says nothing of shorter waves, cycle/m, and tyres roll over them as if they were not
 /// there: a road that was taken for white up to the sensors' rate would make another plant likely.
 constexpr double kShortest = 2.83;
-
-/// The most samples up to `count` that are a product of 2, 3 and 5 alone.
-std::size_t quick_length(std::size_t count) {
-  for (;; --count) {
-    std::size_t left = count;
-    for (const std::size_t factor : {2u, 3u, 5u})
-      while (left % factor == 0) left /= factor;
-    if (left == 1) return count;
-  }
-}
-
-/// The inverse of a small matrix, row by row, by elimination with pivots.
-void invert(std::vector<Complex>& a, std::vector<Complex>& inverse, std::size_t n) {
-  inverse.assign(n * n, 0);
-  for (std::size_t k = 0; k < n; ++k) inverse[k * n + k] = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n; ++i)
-      if (std::norm(a[i * n + k]) > std::norm(a[pivot * n + k])) pivot = i;
-    for (std::size_t j = 0; j < n && pivot != k; ++j) {
-      std::swap(a[k * n + j], a[pivot * n + j]);
-      std::swap(inverse[k * n + j], inverse[pivot * n + j]);
-    }
-    const Complex scale = 1.0 / a[k * n + k];
-    for (std::size_t j = 0; j < n; ++j) {
-      a[k * n + j] *= scale;
-      inverse[k * n + j] *= scale;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const Complex factor = a[i * n + k];
-      if (i == k || factor == 0.0) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        a[i * n + j] -= factor * a[k * n + j];
-        inverse[i * n + j] -= factor * inverse[k * n + j];
-      }
-    }
-  }
-}
-
-/// The lower factor of a Hermitian matrix, in place; false where it is not positive definite.
-bool factorise(Complex* a, std::size_t n) {
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t k = 0; k < j; ++k)
-      for (std::size_t i = j; i < n; ++i) a[i * n + j] -= a[i * n + k] * std::conj(a[j * n + k]);
-    const double pivot = a[j * n + j].real();
-    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
-    const double root = std::sqrt(pivot);
-    for (std::size_t i = j; i < n; ++i) a[i * n + j] /= root;
-  }
-  return true;
-}
-
-/// x of L x = x, in place; every `stride`-th number.
-void solve_lower(const Complex* factor, std::size_t n, Complex* x, std::size_t stride = 1) {
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < i; ++k) x[i * stride] -= factor[i * n + k] * x[k * stride];
-    x[i * stride] /= factor[i * n + i].real();
-  }
-}
-
-/// The plant at one frequency, with the spring and the dashpot that stand for the damper.
-class PlantAtLine {
- public:
-  PlantAtLine(const DrivenPlant& plant, const InPlantSetup& setup,
-              const SpectralLikelihood::Force& force)
-      : plant_(plant), setup_(setup), force_(force), late_(setup.sensors.size()) {}
-
-  void move_to(double w) {
-    const std::size_t n = plant_.size();
-    w_ = w;
-    admittance_ = force_.stiffness + iw() * force_.damping;
-    matrix_.resize(n * n);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = 0; k < n; ++k)
-        matrix_[i * n + k] = plant_.stiffness()[i * n + k] + iw() * plant_.damping()[i * n + k] +
-                             plant_.by_force()[i] * admittance_ * plant_.deflection()[k];
-      matrix_[i * n + i] -= w * w;
-    }
-    invert(matrix_, inverse_, n);
-    for (std::size_t s = 0; s < late_.size(); ++s)
-      late_[s] = std::exp(-iw() * setup_.sensors[s].delay);
-  }
-  double w() const { return w_; }
-  Complex iw() const { return {0, w_}; }
-
-  /// What the sensors show of the damper's force, of an input, of a push at a coordinate.
-  void of_force(std::vector<Complex>& shows) {
-    respond([&](std::size_t k) { return -plant_.by_force()[k]; }, nullptr, 0, 1, shows);
-  }
-  void of_input(std::size_t u, std::vector<Complex>& shows) {
-    const double ground = plant_.on_ground()[u];
-    respond(
-        [&](std::size_t k) {
-          return plant_.by_value()[u][k] + iw() * plant_.by_rate()[u][k] +
-                 plant_.by_force()[k] * admittance_ * ground;
-        },
-        plant_.carried()[u].data(), ground, 0, shows);
-  }
-  void of_push(std::size_t at, std::vector<Complex>& shows) {
-    respond([&](std::size_t k) { return k == at ? 1.0 : 0.0; }, nullptr, 0, 0, shows);
-  }
-
- private:
-  template <class Push>
-  void respond(const Push& push, const double* carried, double on_ground, double own_force,
-               std::vector<Complex>& shows) {
-    const std::size_t n = plant_.size();
-    q_.assign(n, 0);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < n; ++k) q_[i] += inverse_[i * n + k] * push(k);
-    Complex way = -on_ground;
-    for (std::size_t k = 0; k < n; ++k) way += plant_.deflection()[k] * q_[k];
-    for (std::size_t s = 0; s < shows.size(); ++s) {
-      const PlantSensorPlace& place = setup_.sensors[s].place;
-      const double with = carried ? carried[place.coordinate] : 0;
-      shows[s] = late_[s] * seen(place, way, with, own_force);
-    }
-  }
-  Complex seen(const PlantSensorPlace& place, Complex way, double carried, double force) const {
-    switch (place.quantity) {
-      case PlantQuantity::Displacement:
-        return q_[place.coordinate];
-      case PlantQuantity::Velocity:
-        return iw() * q_[place.coordinate];
-      case PlantQuantity::Acceleration:
-        return -w_ * w_ * q_[place.coordinate] + carried;
-      case PlantQuantity::Deflection:
-        return way;
-      case PlantQuantity::DeflectionVelocity:
-        return iw() * way;
-      case PlantQuantity::DamperForce:
-        return force + admittance_ * way;
-    }
-    return 0;
-  }
-
-  const DrivenPlant& plant_;
-  const InPlantSetup& setup_;
-  const SpectralLikelihood::Force& force_;
-  double w_ = 0;
-  Complex admittance_;
-  std::vector<Complex> matrix_, inverse_, late_, q_;
-};
-
-/// Adds noise of this density, which the sensors show so, to their covariance.
-void add_noise(const std::vector<Complex>& shows, double density, Complex* covariance) {
-  const std::size_t m = shows.size();
-  for (std::size_t s = 0; s < m; ++s)
-    for (std::size_t k = 0; k <= s; ++k)
-      covariance[s * m + k] += density * shows[s] * std::conj(shows[k]);
-}
 
 /// Two-sided density of the law's error, N^2*s.
 double error_density(const ObserverNoise& noise, double w) {
@@ -400,25 +250,12 @@ SpectralLikelihood::Force SpectralLikelihood::force_of(std::span<const double> x
   if (model.run(motion, {.step = sample_time_}, state, {.force = force.data()}) < force.size())
     return {};
 
-  // Least squares about the means.
-  double mean[3] = {}, product[3][3] = {};
-  const auto at = [&](std::size_t k) {
-    return std::array{motion[k].displacement, motion[k].velocity, force[k]};
-  };
+  const auto stand_in = stand_in_of(motion, force);
+  if (!stand_in) return {};
+  Force found{.stand_in = *stand_in};
   for (std::size_t k = 0; k < force.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) mean[i] += at(k)[i] / static_cast<double>(force.size());
-  for (std::size_t k = 0; k < force.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j <= i; ++j)
-        product[i][j] += (at(k)[i] - mean[i]) * (at(k)[j] - mean[j]);
-  const double dd = product[0][0], dv = product[1][0], vv = product[1][1];
-  const double determinant = dd * vv - dv * dv;
-  if (!(determinant > 0)) return {};
-  Force found;
-  found.stiffness = (product[2][0] * vv - product[2][1] * dv) / determinant;
-  found.damping = (product[2][1] * dd - product[2][0] * dv) / determinant;
-  for (std::size_t k = 0; k < force.size(); ++k)
-    force[k] -= found.stiffness * motion[k].displacement + found.damping * motion[k].velocity;
+    force[k] -= found.stand_in.stiffness * motion[k].displacement +
+                found.stand_in.damping * motion[k].velocity;
   found.rest = half_spectrum(force);
   return found;
 }
@@ -437,7 +274,7 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
   spectra.covariance.assign(lines * m * m, 0);
   std::vector<Complex> columns(lines * m * ends), whitened(m * ends), shows(m), factor, shown;
   EndTerms terms(ends);
-  PlantAtLine at(plant, setup, force);
+  PlantAtLine at(plant, setup, force.stand_in);
   const double scale = sample_time_ / std::sqrt(ride.duration);
   for (std::size_t l = 0; l < lines; ++l) {
     const std::size_t line = ride.first + l;

@@ -10,6 +10,7 @@
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/observer_tables.h"
+#include "dashpot/machine/plant_at_line.h"
 #include "dashpot/machine/plant_recording.h"
 #include "dashpot/monitor.h"
 
@@ -59,8 +60,8 @@ class SpectralLikelihood final : public InPlantUnknowns {
   /// The law's force along the motion: the spring and the dashpot that stand for it best, and the
   /// lines of what is left.
   struct Force {
-    double stiffness = 0, damping = 0;  ///< N/m, N*s/m
-    Lines rest;                         ///< empty where the law diverges
+    StandIn stand_in;
+    Lines rest;  ///< empty where the law diverges
   };
   Force force_of(std::span<const double> x, std::size_t ride) const;
   /// False where a number is not finite.

@@ -210,14 +210,13 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
         record->time.push_back(static_cast<double>(k) / options.sample_rate);
     }
     Random noise(seed + 500);
-    constexpr const char* kUnits[] = {"N", "m", "m/s^2"};  // in the order of PlantInput
     for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
       std::vector<double> fine(driving.samples);
       for (std::size_t k = 0; k < fine.size(); ++k)
         fine[k] = driving.value[u][2 * kStepsOfFiner * k];
       const std::vector<double> values = sampled(fine, samples, 0);
       const PlantInputChannel& input = setup.inputs[u];
-      const std::string unit = kUnits[static_cast<std::size_t>(input.place.kind)];
+      const std::string unit = unit_of(input.place.kind);
       if (input.place.kind == PlantInput::Ground) add_channel(ride.truth, "road", unit, values);
       if (!input.road)
         add_channel(ride.recorded, input.channel, unit, with_noise(values, input.noise, noise));

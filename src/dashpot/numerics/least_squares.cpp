@@ -294,4 +294,17 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
   return report;
 }
 
+LeastSquaresReport describe_at(const LeastSquaresProblem& problem, std::vector<double> x,
+                               const LeastSquaresOptions& options) {
+  LeastSquaresReport report;
+  report.x = std::move(x);
+  for (std::size_t k = 0; k < report.x.size(); ++k)
+    report.x[k] = std::clamp(report.x[k], problem.lower[k], problem.upper[k]);
+  std::exception_ptr failure;
+  const WholeProblem whole(problem, options, failure);
+  describe_end(whole, problem, report);
+  if (failure) std::rethrow_exception(failure);
+  return report;
+}
+
 }  // namespace dashpot

@@ -57,4 +57,8 @@ struct LeastSquaresReport {
 LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double> start,
                          const LeastSquaresOptions& options = {});
 
+/// Cost, J'J and J'r at x, without a search; x is moved into the bounds first.
+LeastSquaresReport describe_at(const LeastSquaresProblem& problem, std::vector<double> x,
+                               const LeastSquaresOptions& options = {});
+
 }  // namespace dashpot

@@ -64,6 +64,25 @@ std::vector<std::complex<double>> half_spectrum(std::span<const double> x) {
   return lines;
 }
 
+std::vector<double> from_half_spectrum(std::span<const std::complex<double>> lines,
+                                       std::size_t samples) {
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  std::vector<std::complex<double>> half(lines.begin(), lines.end());
+  std::vector<double> x;
+  fft.inv(x, half, static_cast<Eigen::Index>(samples));
+  return x;
+}
+
+std::size_t quick_length(std::size_t count) {
+  for (;; --count) {
+    std::size_t left = count;
+    for (const std::size_t factor : {2u, 3u, 5u})
+      while (left % factor == 0) left /= factor;
+    if (left == 1) return count;
+  }
+}
+
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,
                                      std::size_t points) {
   std::vector<std::complex<double>> half(points / 2 + 1);

@@ -24,6 +24,13 @@ PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt);
 /// factors alone.
 std::vector<std::complex<double>> half_spectrum(std::span<const double> x);
 
+/// What half_spectrum made these lines of: `samples` numbers.
+std::vector<double> from_half_spectrum(std::span<const std::complex<double>> lines,
+                                       std::size_t samples);
+
+/// The most samples up to `count` that are a product of 2, 3 and 5 alone.
+std::size_t quick_length(std::size_t count);
+
 /// Adds harmonics up: y_j = sum over k of Re(lines_k exp(2 pi i j k / points)), j = 0 ... points -
 /// 1. points: a power of two, at least twice the lines.
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,

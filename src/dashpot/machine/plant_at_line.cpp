@@ -1,0 +1,159 @@
+#include "dashpot/machine/plant_at_line.h"
+
+#include <array>
+#include <cmath>
+
+namespace dashpot {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// The inverse of a small matrix, row by row, by elimination with pivots.
+void invert(std::vector<Complex>& a, std::vector<Complex>& inverse, std::size_t n) {
+  inverse.assign(n * n, 0);
+  for (std::size_t k = 0; k < n; ++k) inverse[k * n + k] = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::norm(a[i * n + k]) > std::norm(a[pivot * n + k])) pivot = i;
+    for (std::size_t j = 0; j < n && pivot != k; ++j) {
+      std::swap(a[k * n + j], a[pivot * n + j]);
+      std::swap(inverse[k * n + j], inverse[pivot * n + j]);
+    }
+    const Complex scale = 1.0 / a[k * n + k];
+    for (std::size_t j = 0; j < n; ++j) {
+      a[k * n + j] *= scale;
+      inverse[k * n + j] *= scale;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Complex factor = a[i * n + k];
+      if (i == k || factor == 0.0) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        a[i * n + j] -= factor * a[k * n + j];
+        inverse[i * n + j] -= factor * inverse[k * n + j];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<StandIn> stand_in_of(std::span<const DamperInput> motion,
+                                   std::span<const double> force) {
+  double mean[3] = {}, product[3][3] = {};
+  const auto at = [&](std::size_t k) {
+    return std::array{motion[k].displacement, motion[k].velocity, force[k]};
+  };
+  for (std::size_t k = 0; k < force.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += at(k)[i] / static_cast<double>(force.size());
+  for (std::size_t k = 0; k < force.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        product[i][j] += (at(k)[i] - mean[i]) * (at(k)[j] - mean[j]);
+  const double dd = product[0][0], dv = product[1][0], vv = product[1][1];
+  const double determinant = dd * vv - dv * dv;
+  if (!(determinant > 0)) return {};
+  return StandIn{.stiffness = (product[2][0] * vv - product[2][1] * dv) / determinant,
+                 .damping = (product[2][1] * dd - product[2][0] * dv) / determinant};
+}
+
+PlantAtLine::PlantAtLine(const DrivenPlant& plant, const InPlantSetup& setup,
+                         const StandIn& stand_in)
+    : plant_(plant), setup_(setup), stand_in_(stand_in), late_(setup.sensors.size()) {}
+
+void PlantAtLine::move_to(double w) {
+  const std::size_t n = plant_.size();
+  w_ = w;
+  admittance_ = stand_in_.stiffness + iw() * stand_in_.damping;
+  matrix_.resize(n * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < n; ++k)
+      matrix_[i * n + k] = plant_.stiffness()[i * n + k] + iw() * plant_.damping()[i * n + k] +
+                           plant_.by_force()[i] * admittance_ * plant_.deflection()[k];
+    matrix_[i * n + i] -= w * w;
+  }
+  invert(matrix_, inverse_, n);
+  for (std::size_t s = 0; s < late_.size(); ++s)
+    late_[s] = std::exp(-iw() * setup_.sensors[s].delay);
+}
+
+template <class Push>
+void PlantAtLine::respond(const Push& push, const double* carried, double on_ground,
+                          double own_force, std::vector<Complex>& shows) {
+  const std::size_t n = plant_.size();
+  q_.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) q_[i] += inverse_[i * n + k] * push(k);
+  Complex way = -on_ground;
+  for (std::size_t k = 0; k < n; ++k) way += plant_.deflection()[k] * q_[k];
+  for (std::size_t s = 0; s < shows.size(); ++s) {
+    const PlantSensorPlace& place = setup_.sensors[s].place;
+    const double with = carried ? carried[place.coordinate] : 0;
+    shows[s] = late_[s] * seen(place, way, with, own_force);
+  }
+}
+
+void PlantAtLine::of_force(std::vector<Complex>& shows) {
+  respond([&](std::size_t k) { return -plant_.by_force()[k]; }, nullptr, 0, 1, shows);
+}
+
+void PlantAtLine::of_input(std::size_t u, std::vector<Complex>& shows) {
+  const double ground = plant_.on_ground()[u];
+  respond(
+      [&](std::size_t k) {
+        return plant_.by_value()[u][k] + iw() * plant_.by_rate()[u][k] +
+               plant_.by_force()[k] * admittance_ * ground;
+      },
+      plant_.carried()[u].data(), ground, 0, shows);
+}
+
+void PlantAtLine::of_push(std::size_t at, std::vector<Complex>& shows) {
+  respond([&](std::size_t k) { return k == at ? 1.0 : 0.0; }, nullptr, 0, 0, shows);
+}
+
+Complex PlantAtLine::seen(const PlantSensorPlace& place, Complex way, double carried,
+                          double force) const {
+  switch (place.quantity) {
+    case PlantQuantity::Displacement:
+      return q_[place.coordinate];
+    case PlantQuantity::Velocity:
+      return iw() * q_[place.coordinate];
+    case PlantQuantity::Acceleration:
+      return -w_ * w_ * q_[place.coordinate] + carried;
+    case PlantQuantity::Deflection:
+      return way;
+    case PlantQuantity::DeflectionVelocity:
+      return iw() * way;
+    case PlantQuantity::DamperForce:
+      return force + admittance_ * way;
+  }
+  return 0;
+}
+
+void add_noise(const std::vector<Complex>& shows, double density, Complex* covariance) {
+  const std::size_t m = shows.size();
+  for (std::size_t s = 0; s < m; ++s)
+    for (std::size_t k = 0; k <= s; ++k)
+      covariance[s * m + k] += density * shows[s] * std::conj(shows[k]);
+}
+
+bool factorise(Complex* a, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t k = 0; k < j; ++k)
+      for (std::size_t i = j; i < n; ++i) a[i * n + j] -= a[i * n + k] * std::conj(a[j * n + k]);
+    const double pivot = a[j * n + j].real();
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    const double root = std::sqrt(pivot);
+    for (std::size_t i = j; i < n; ++i) a[i * n + j] /= root;
+  }
+  return true;
+}
+
+void solve_lower(const Complex* factor, std::size_t n, Complex* x, std::size_t stride) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) x[i * stride] -= factor[i * n + k] * x[k * stride];
+    x[i * stride] /= factor[i * n + i].real();
+  }
+}
+
+}  // namespace dashpot

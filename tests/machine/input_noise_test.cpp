@@ -1,0 +1,172 @@
+#include "dashpot/machine/input_noise.h"
+
+#include <numbers>
+
+#include "dashpot/base/random.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/numerics/spectrum.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr double kRate = 250;  // Hz
+
+/// A car on a road that is measured with noise.
+InPlantSetup car_on_measured_road(double road_noise) {
+  InPlantSetup setup;
+  setup.model = &find_machine("quarter_car", "test");
+  setup.known = {{"unsprung_mass", 139.5}, {"spring_stiffness", 37300}};
+  setup.inputs = {{"road", {PlantInput::Ground, 0}, road_noise}};
+  setup.sensors = {{.channel = "body", .place = {PlantQuantity::Acceleration, 0}, .noise = 0.05},
+                   {.channel = "wheel", .place = {PlantQuantity::Acceleration, 1}, .noise = 0.5},
+                   {.channel = "level", .place = {PlantQuantity::Deflection, 0}, .noise = 2e-4}};
+  setup.skip = 0.2;
+  return setup;
+}
+
+PlantRecording ride_of(InPlantSetup truth, const DamperModel& damper, double seconds) {
+  const NamedValues numbers = {
+      {"sprung_mass", 387}, {"tyre_stiffness", 295200}, {"tyre_damping", 300}};
+  truth.known.insert(truth.known.end(), numbers.begin(), numbers.end());
+  const VirtualRide ride = virtual_campaign(truth, damper,
+                                            {.duration = seconds,
+                                             .sample_rate = kRate,
+                                             .levels = {0},
+                                             .road = "iso8608,class=C,speed=20m/s",
+                                             .seed = 4})
+                               .front();
+  return {.name = "ride",
+          .sample_time = ride.recorded.sample_time,
+          .samples = ride.recorded.size(),
+          .channels = ride.recorded.channels};
+}
+
+const FittedParameter& named_in(const std::vector<FittedParameter>& list, const std::string& name) {
+  return *std::ranges::find(list, name, &FittedParameter::name);
+}
+
+}  // namespace
+
+TEST_CASE("input noise: what is mixed at random is told apart") {
+  // The gains are those of a car with a stiff dashpot; samples are mixed line by line.
+  constexpr std::size_t kSamples = 7500;
+  InPlantSetup setup = car_on_measured_road(0);
+  for (PlantSensor& sensor : setup.sensors) sensor.noise = 0;
+  const StandIn stand_in{.stiffness = 2000, .damping = 1500};
+  std::vector<RecordingNoise> recordings;
+  recordings.emplace_back(setup, stand_in, 1 / kRate, kSamples);
+  REQUIRE(recordings[0].samples() == kSamples);
+
+  const NoiseSources truth{.sensors = {0.05, 0.5, 2e-4}, .inputs = {5e-4}, .force = {30, 0, 0}};
+  std::vector<PlantInputPlace> inputs = {{PlantInput::Ground, 0}};
+  const DrivenPlant plant(make_plant(*setup.model, setup.known), 0, inputs);
+  PlantAtLine at(plant, setup, stand_in);
+  Random random(3);
+  std::vector<std::vector<std::complex<double>>> lines(
+      3, std::vector<std::complex<double>>(kSamples / 2 + 1));
+  const double scale = std::sqrt(static_cast<double>(kSamples) / 2);
+  const auto normal = [&] { return scale * std::complex(random.normal(), random.normal()); };
+  std::vector<std::complex<double>> road(3), force(3), noise(kSamples / 2 + 1);
+  for (std::size_t l = 1; l < kSamples / 2; ++l) {
+    const double w = 2 * std::numbers::pi * kRate * static_cast<double>(l) / kSamples;
+    at.move_to(w);
+    at.of_input(0, road);
+    at.of_force(force);
+    const double memory = force_memories()[0];
+    noise[l] = truth.inputs[0] * normal();
+    const auto d =
+        truth.force[0] * std::sqrt(2 * memory * kRate / (1 + std::pow(w * memory, 2))) * normal();
+    for (std::size_t s = 0; s < 3; ++s)
+      lines[s][l] = truth.sensors[s] * normal() + road[s] * noise[l] + force[s] * d;
+  }
+  std::vector<std::vector<double>> beyond;
+  std::vector<double> in_a_row;
+  for (const auto& one : lines) {
+    beyond.push_back(from_half_spectrum(one, kSamples));
+    in_a_row.insert(in_a_row.end(), beyond.back().begin(), beyond.back().end());
+  }
+  recordings[0].set_beyond(beyond);
+
+  // From a start that is wrong by factors; within four standard deviations as they are told.
+  const NoiseSources first{.sensors = {0.2, 0.2, 1e-3}, .inputs = {1e-4}, .force = {100, 100, 100}};
+  const NoiseFound found = find_noise(recordings, setup, first, 1);
+  for (std::size_t s = 0; s < 3; ++s)
+    CHECK_CLOSE(found.sources.sensors[s], truth.sensors[s], 4 * found.uncertainty[s], 0);
+  CHECK_CLOSE(found.sources.inputs[0], truth.inputs[0], 4 * found.uncertainty[3], 0);
+  CHECK(found.uncertainty[3] < 0.05);
+  CHECK_CLOSE(found.sources.force[0], truth.force[0], 0.1, 0);
+  CHECK(found.sources.force[1] < 3);
+
+  // Real rows have the mean square of a sensor's samples: here every line up to 0.4 of the rate.
+  std::vector<double> rows(recordings[0].lines() * recordings[0].rows_per_line());
+  recordings[0].put_lines(in_a_row, kSamples, rows);
+  double square = 0, all = 0;
+  for (std::size_t i = 4; i < rows.size(); i += 6)
+    square += rows[i] * rows[i] + rows[i + 1] * rows[i + 1];
+  for (const double value : beyond[2]) all += value * value;
+  CHECK_CLOSE(square, all, 0.2, 0);
+  CHECK(square < all);
+
+  // Without its most likely noise the input is nearer to the truth.
+  const std::vector<double> added = from_half_spectrum(noise, kSamples),
+                            likely = recordings[0].likely_inputs()[0];
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < kSamples; ++k) {
+    before += added[k] * added[k];
+    after += std::pow(added[k] - likely[k], 2);
+  }
+  CHECK(after < 0.7 * before);
+}
+
+TEST_CASE("input noise: what a setup states stays as it is stated") {
+  InPlantSetup setup = car_on_measured_road(1e-3);
+  std::vector<RecordingNoise> recordings;
+  recordings.emplace_back(setup, StandIn{0, 1000}, 1 / kRate, 1000);
+  Random random(8);
+  std::vector<std::vector<double>> beyond(3, std::vector<double>(1000));
+  for (auto& sensor : beyond)
+    for (double& value : sensor) value = random.normal();
+  recordings[0].set_beyond(beyond);
+  const NoiseFound found =
+      find_noise(recordings, setup,
+                 {.sensors = {0.05, 0.5, 2e-4}, .inputs = {1e-3}, .force = {10, 10, 10}}, 1);
+  CHECK_CLOSE(found.sources.sensors[1], 0.5, 1e-12, 0);
+  CHECK_CLOSE(found.sources.inputs[0], 1e-3, 1e-12, 0);
+  CHECK(found.uncertainty[3] == 0);
+}
+
+TEST_CASE("in plant: a road measured with 1 mm of noise biases neither tyre nor mass" *
+          doctest::test_suite("long")) {
+  // The truth is a tanh, the law an arctan; nothing is said of any noise.
+  const LawModel damper = LawModel::constant(find_law("tanh_guo"), {800, 1200, 15, 0, 1, 0});
+  InPlantSetup setup = car_on_measured_road(1e-3);
+  const PlantRecording ride = ride_of(setup, damper, 16);
+  setup.unknown = {{"sprung_mass", 100, 1000, 300},
+                   {"tyre_stiffness", 1e5, 1e6, 2e5},
+                   {"tyre_damping", 0, 10000, 500}};
+  for (PlantSensor& sensor : setup.sensors) sensor.noise = 0;
+  setup.inputs.front().noise = 0;
+  const InPlantReport report =
+      identify_in_plant(find_law("arctan"), setup, {ride}, {.starts = 4, .grade = ""});
+  REQUIRE(report.model);
+  const auto check_near = [&](const char* name, double truth, double within) {
+    const FittedParameter& p = named_in(report.plant, name);
+    CAPTURE(name);
+    CAPTURE(p.value);
+    CAPTURE(p.low);
+    CAPTURE(p.high);
+    CHECK(std::abs(p.value - truth) < p.high - p.low);  // 4 standard deviations
+    CHECK_CLOSE(p.value, truth, within, 0);
+  };
+  check_near("sprung_mass", 387, 0.02);
+  check_near("tyre_stiffness", 295200, 0.01);
+  check_near("tyre_damping", 300, 0.3);
+  const FittedParameter& noise = named_in(report.nuisances, "noise of road");
+  CAPTURE(noise.value);
+  CHECK_CLOSE(noise.value, 1e-3, 0.1, 0);
+}
