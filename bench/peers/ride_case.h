@@ -70,6 +70,28 @@ inline dashpot::MountedDamper ride_damper(Ride ride) {
   return damper;
 }
 
+/// The plant's numbers: kg, N/m.
+constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
+
+/// A sample of Mix-1: hard where the body moves slower than at the crossover.
+inline bool is_hard(double body_velocity, double body_acceleration) {
+  const double rate = 2 * std::numbers::pi * kCrossover * body_velocity;
+  return body_acceleration * body_acceleration - rate * rate <= 0;
+}
+
+/// The road as Dashpot has it: a cubic between its points, one per sample. Height: double, or one
+/// per vehicle.
+template <class Height>
+Height road_at(const std::vector<Height>& heights, double t) {
+  const double place = t / kSample;
+  const auto k = std::min(static_cast<std::size_t>(place), heights.size() - 3);
+  const double u = place - static_cast<double>(k), w = 1 - u;
+  const Height rise = heights[k + 1] - heights[k];
+  const Height before = k > 0 ? 0.5 * (heights[k + 1] - heights[k - 1]) : Height{};
+  const Height after = 0.5 * (heights[k + 2] - heights[k]);
+  return heights[k] + u * (rise * u * (3 - 2 * u) + w * (w * before - u * after));
+}
+
 /// The same as equations for a general integrator: y = body, wheel, their speeds; then the law's
 /// two states and its coil's voltage.
 class RideEquations {
@@ -132,16 +154,13 @@ class RideEquations {
     dy[0] = y[2];
     dy[1] = y[3];
     dy[2] = -spring / kBody;
-    dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
+    dy[3] = (spring - kTyre * (y[1] - road_at(heights_, t))) / kWheel;
   }
 
-  /// A sample of Mix-1: hard where the body moves slower than at the crossover. Whether the command
-  /// has changed.
+  /// A sample of the controller; whether the command has changed.
   bool control(double body_velocity, double body_acceleration) {
-    const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = command;
-    command = body_acceleration * body_acceleration - rate * rate <= 0
-                  ? kDriveMax[static_cast<int>(ride_)]
-                  : 0;
+    const double before = command;
+    command = is_hard(body_velocity, body_acceleration) ? kDriveMax[static_cast<int>(ride_)] : 0;
     return command != before;
   }
 
@@ -161,18 +180,7 @@ class RideEquations {
       force += out * std::tanh(by_v * v + by_i * i + bias);
     return force;
   }
-  /// The road as Dashpot has it: a cubic between its points, one per sample.
-  double road(double t) const {
-    const double place = t / kSample;
-    const auto k = std::min(static_cast<std::size_t>(place), heights_.size() - 3);
-    const double u = place - static_cast<double>(k), w = 1 - u;
-    const double rise = heights_[k + 1] - heights_[k];
-    const double before = k > 0 ? 0.5 * (heights_[k + 1] - heights_[k - 1]) : 0;
-    const double after = 0.5 * (heights_[k + 2] - heights_[k]);
-    return heights_[k] + u * (rise * u * (3 - 2 * u) + w * (w * before - u * after));
-  }
 
-  static constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
   Ride ride_;
   std::vector<double> heights_;
   dashpot::Mlp mlp_;
@@ -196,14 +204,10 @@ inline void write_reference(Ride ride, const RideTrace& trace) {
   file.write(reinterpret_cast<const char*>(trace.data()),
              static_cast<std::streamsize>(trace.size() * sizeof trace[0]));
 }
-/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN without a
-/// reference.
-inline double error_of(Ride ride, const RideTrace& trace) {
-  RideTrace reference(kSamples10s + 1);
-  std::ifstream file(reference_file(ride), std::ios::binary);
-  file.read(reinterpret_cast<char*>(reference.data()),
-            static_cast<std::streamsize>(reference.size() * sizeof reference[0]));
-  if (!file) return NAN;
+/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN where a trace
+/// is not whole.
+inline double distance(const RideTrace& reference, const RideTrace& trace) {
+  if (trace.size() != reference.size()) return NAN;
   double worst = 0;
   for (std::size_t c = 0; c < 4; ++c) {
     double top = 0, apart = 0;
@@ -214,6 +218,14 @@ inline double error_of(Ride ride, const RideTrace& trace) {
     worst = std::max(worst, apart / top);
   }
   return worst;
+}
+/// The same from the reference that was written; NaN without one.
+inline double error_of(Ride ride, const RideTrace& trace) {
+  RideTrace reference(kSamples10s + 1);
+  std::ifstream file(reference_file(ride), std::ios::binary);
+  file.read(reinterpret_cast<char*>(reference.data()),
+            static_cast<std::streamsize>(reference.size() * sizeof reference[0]));
+  return file ? distance(reference, trace) : NAN;
 }
 
 constexpr const char* kRideTasks[] = {"ride_network", "ride_bouc_wen"};

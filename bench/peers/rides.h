@@ -5,6 +5,17 @@
 // Dashpot's own rides: one vehicle and a batch of 32 in lanes, and one by simulate().
 namespace peer {
 
+inline RideTrace trace_of(const dashpot::Record& record) {
+  RideTrace trace(record.time.size());
+  std::size_t c = 0;
+  for (const char* name : {"body", "wheel", "body_velocity", "wheel_velocity"}) {
+    const std::vector<double>& samples = record.channel(name).samples;
+    for (std::size_t k = 0; k < trace.size(); ++k) trace[k][c] = samples[k];
+    ++c;
+  }
+  return trace;
+}
+
 class OwnRides {
  public:
   explicit OwnRides(Ride ride, int vehicles)
@@ -39,17 +50,6 @@ class OwnRides {
   }
 
  private:
-  static RideTrace trace_of(const dashpot::Record& record) {
-    RideTrace trace(record.time.size());
-    std::size_t c = 0;
-    for (const char* name : {"body", "wheel", "body_velocity", "wheel_velocity"}) {
-      const std::vector<double>& samples = record.channel(name).samples;
-      for (std::size_t k = 0; k < trace.size(); ++k) trace[k][c] = samples[k];
-      ++c;
-    }
-    return trace;
-  }
-
   dashpot::ControlLimits limits_;
   std::vector<dashpot::MountedDamper> dampers_;
   dashpot::ControllerPointer mix1_;
