@@ -85,12 +85,35 @@ inline dashpot::MountedDamper ride_damper(Ride ride) {
   return damper;
 }
 
+/// The plant's numbers: kg, N/m.
+constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
+
+/// A sample of Mix-1: hard where the body moves slower than at the crossover.
+inline bool is_hard(double body_velocity, double body_acceleration) {
+  const double rate = 2 * std::numbers::pi * kCrossover * body_velocity;
+  return body_acceleration * body_acceleration - rate * rate <= 0;
+}
+
+/// The road as Dashpot has it: a cubic between its points, one per sample. Height: double, or one
+/// per vehicle.
+template <class Height>
+Height road_at(const std::vector<Height>& heights, double t) {
+  const double place = t / kSample;
+  const auto k = std::min(static_cast<std::size_t>(place), heights.size() - 3);
+  const double u = place - static_cast<double>(k), w = 1 - u;
+  const Height rise = heights[k + 1] - heights[k];
+  const Height before = k > 0 ? 0.5 * (heights[k + 1] - heights[k - 1]) : Height{};
+  const Height after = 0.5 * (heights[k + 2] - heights[k]);
+  return heights[k] + u * (rise * u * (3 - 2 * u) + w * (w * before - u * after));
+}
+
 /// The same as equations for a general integrator: y = heights, with the half car's pitch behind
 /// that of its body, and wheels; their rates; then strut by strut the law's two states and its
 /// coil's voltage.
 class RideEquations {
  public:
-  RideEquations(Ride ride, int vehicle) : row_(row_of(ride)), heights_(ride_road(vehicle).tracks[0]) {
+  RideEquations(Ride ride, int vehicle)
+      : row_(row_of(ride)), heights_(ride_road(vehicle).tracks[0]) {
     const dashpot::MountedDamper damper = ride_damper(ride);
     if (row_.network) {
       const auto& network = dynamic_cast<const dashpot::NetworkModel&>(*damper.model);
@@ -140,7 +163,7 @@ class RideEquations {
     dy[0] = y[2];
     dy[1] = y[3];
     dy[2] = -spring / kBody;
-    dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
+    dy[3] = (spring - kTyre * (y[1] - road_at(heights_, t))) / kWheel;
   }
 
   /// A sample of Mix-1 at each strut: hard where the body moves slower than at the crossover.
@@ -171,11 +194,14 @@ class RideEquations {
     for (int k = 0; k < 4; ++k) dy[k] = v[k];
     dy[4] = -(at_front + at_rear) / kHalfBody;
     dy[5] = (kFront * at_front - kRear * at_rear) / kInertia;
-    dy[6] = (at_front - kHalfTyre * (y[2] - road(t))) / kFrontWheel;
-    dy[7] = (at_rear - kHalfTyre * (y[3] - road(std::max(t - (kFront + kRear) / kSpeed, 0.0)))) / kRearWheel;
+    dy[6] = (at_front - kHalfTyre * (y[2] - road_at(heights_, t))) / kFrontWheel;
+    dy[7] = (at_rear -
+             kHalfTyre * (y[3] - road_at(heights_, std::max(t - (kFront + kRear) / kSpeed, 0.0)))) /
+            kRearWheel;
   }
   /// Force of a strut's damper, N, and the rates of its states.
-  [[gnu::always_inline]] inline double damper(int strut, double x, double v, const double* z, double* dz) const {
+  [[gnu::always_inline]] inline double damper(int strut, double x, double v, const double* z,
+                                              double* dz) const {
     if (row_.network) return network(v, commands_[strut]);
     law_at(z[2], law_);
     const double force = modified_bouc_wen_force(&law_, x, v, z);
@@ -184,9 +210,8 @@ class RideEquations {
     return force;
   }
   bool control(int strut, double body_velocity, double body_acceleration) {
-    const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = commands_[strut];
-    commands_[strut] =
-        body_acceleration * body_acceleration - rate * rate <= 0 ? row_.drive_max : 0;
+    const double before = commands_[strut];
+    commands_[strut] = is_hard(body_velocity, body_acceleration) ? row_.drive_max : 0;
     return commands_[strut] != before;
   }
   void law_at(double u, ModifiedBoucWen& p) const {
@@ -201,20 +226,10 @@ class RideEquations {
       force += out * std::tanh(by_v * v + by_i * i + bias);
     return force;
   }
-  /// The road as Dashpot has it: a cubic between its points, one per sample.
-  double road(double t) const {
-    const double place = t / kSample;
-    const auto k = std::min(static_cast<std::size_t>(place), heights_.size() - 3);
-    const double u = place - static_cast<double>(k), w = 1 - u;
-    const double rise = heights_[k + 1] - heights_[k];
-    const double before = k > 0 ? 0.5 * (heights_[k + 1] - heights_[k - 1]) : 0;
-    const double after = 0.5 * (heights_[k + 2] - heights_[k]);
-    return heights_[k] + u * (rise * u * (3 - 2 * u) + w * (w * before - u * after));
-  }
 
-  static constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
   static constexpr double kHalfBody = 690, kInertia = 1222, kFrontWheel = 40, kRearWheel = 45,
-                          kFrontSpring = 17000, kRearSpring = 22000, kHalfTyre = 200000, kFront = 1.3,
+                          kFrontSpring = 17000, kRearSpring = 22000, kHalfTyre = 200000,
+                          kFront = 1.3,
                           kRear = 1.5;  // data/plants/half_car_a.json
   const RideRow& row_;
   std::array<double, 2> commands_{};
@@ -239,14 +254,10 @@ inline void write_reference(Ride ride, const RideTrace& trace) {
   file.write(reinterpret_cast<const char*>(trace.data()),
              static_cast<std::streamsize>(trace.size() * sizeof trace[0]));
 }
-/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN without a
-/// reference.
-inline double error_of(Ride ride, const RideTrace& trace) {
-  RideTrace reference(kSamples10s + 1);
-  std::ifstream file(reference_file(ride), std::ios::binary);
-  file.read(reinterpret_cast<char*>(reference.data()),
-            static_cast<std::streamsize>(reference.size() * sizeof reference[0]));
-  if (!file) return NAN;
+/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN where a trace
+/// is not whole.
+inline double distance(const RideTrace& reference, const RideTrace& trace) {
+  if (trace.size() != reference.size()) return NAN;
   double worst = 0;
   for (std::size_t c = 0; c < 4; ++c) {
     double top = 0, apart = 0;
@@ -257,6 +268,14 @@ inline double error_of(Ride ride, const RideTrace& trace) {
     worst = std::max(worst, apart / top);
   }
   return worst;
+}
+/// The same from the reference that was written; NaN without one.
+inline double error_of(Ride ride, const RideTrace& trace) {
+  RideTrace reference(kSamples10s + 1);
+  std::ifstream file(reference_file(ride), std::ios::binary);
+  file.read(reinterpret_cast<char*>(reference.data()),
+            static_cast<std::streamsize>(reference.size() * sizeof reference[0]));
+  return file ? distance(reference, trace) : NAN;
 }
 
 /// Tasks of a general integrator: run(ride, trace or null) rides the first vehicle and returns CPU

@@ -5,6 +5,18 @@
 // Dashpot's own rides: one vehicle and a batch of 32 in lanes, and one by simulate().
 namespace peer {
 
+inline RideTrace trace_of(const dashpot::Record& record, const std::string& wheel = "wheel") {
+  RideTrace trace(record.time.size());
+  std::size_t c = 0;
+  for (const std::string& name :
+       {std::string("body"), wheel, std::string("body_velocity"), wheel + "_velocity"}) {
+    const std::vector<double>& samples = record.channel(name).samples;
+    for (std::size_t k = 0; k < trace.size(); ++k) trace[k][c] = samples[k];
+    ++c;
+  }
+  return trace;
+}
+
 class OwnRides {
  public:
   explicit OwnRides(Ride ride, int vehicles)
@@ -25,7 +37,7 @@ class OwnRides {
                                                     .absolute_tolerance = kAbsolute,
                                                     .traces = trace != nullptr});
     const double seconds = cpu_seconds() - start;
-    if (trace) *trace = trace_of(results[0].trace);
+    if (trace) *trace = trace_of(results[0].trace, wheel());
     return seconds / static_cast<double>(vehicles_.size());
   }
   double by_simulate(RideTrace* trace) const {
@@ -35,23 +47,13 @@ class OwnRides {
                                                                   .absolute_tolerance = kAbsolute,
                                                                   .limits = limits_});
     const double seconds = cpu_seconds() - start;
-    if (trace) *trace = trace_of(result.record);
+    if (trace) *trace = trace_of(result.record, wheel());
     return seconds;
   }
 
  private:
-  RideTrace trace_of(const dashpot::Record& record) const {
-    RideTrace trace(record.time.size());
-    std::size_t c = 0;
-    const std::string wheel =
-        vehicles_[0].setting.dampers.size() == 1 ? "wheel" : plant_.tyres[0].name + "_wheel";
-    for (const std::string& name : {std::string("body"), wheel, std::string("body_velocity"),
-                                    wheel + "_velocity"}) {
-      const std::vector<double>& samples = record.channel(name).samples;
-      for (std::size_t k = 0; k < trace.size(); ++k) trace[k][c] = samples[k];
-      ++c;
-    }
-    return trace;
+  std::string wheel() const {
+    return dampers_.size() == 1 ? "wheel" : plant_.tyres[0].name + "_wheel";
   }
 
   dashpot::Plant plant_;
@@ -64,8 +66,8 @@ class OwnRides {
 
 /// run(rides, trace) gives the seconds of one vehicle.
 template <class Run>
-void add_own_ride(std::map<std::string, Task>& tasks, Ride ride, const std::string& ending, int vehicles,
-                  Run run) {
+void add_own_ride(std::map<std::string, Task>& tasks, Ride ride, const std::string& ending,
+                  int vehicles, Run run) {
   const std::string name = row_of(ride).task + ending;
   const auto rides = std::make_shared<std::unique_ptr<OwnRides>>();  // made when they are asked for
   const auto made = [rides, ride, vehicles]() -> const OwnRides& {
@@ -82,7 +84,9 @@ void add_own_ride(std::map<std::string, Task>& tasks, Ride ride, const std::stri
 
 inline void add_own_rides(std::map<std::string, Task>& tasks, bool in_lanes) {
   const auto lanes = [](const OwnRides& rides, RideTrace* trace) { return rides.in_lanes(trace); };
-  const auto alone = [](const OwnRides& rides, RideTrace* trace) { return rides.by_simulate(trace); };
+  const auto alone = [](const OwnRides& rides, RideTrace* trace) {
+    return rides.by_simulate(trace);
+  };
   for (const RideRow& row : kRides) {
     if (!in_lanes) {  // beside the batches of cars, too, which have no table of one vehicle
       add_own_ride(tasks, row.ride, row.struts > 1 ? "_batch" : "", 1, alone);
@@ -93,8 +97,8 @@ inline void add_own_rides(std::map<std::string, Task>& tasks, bool in_lanes) {
   }
 }
 
-/// What another language needs to ride the same: a line of numbers for the law or the network, one for the
-/// road.
+/// What another language needs to ride the same: a line of numbers for the law or the network, one
+/// for the road.
 inline void print_ride(Ride ride) {
   const auto line = [](const std::vector<double>& numbers) {
     for (const double value : numbers) std::printf("%.17g ", value);

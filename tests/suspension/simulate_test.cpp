@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "damper/inverse/inverses.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
@@ -272,6 +273,31 @@ TEST_CASE("corners of a coil's current are met: a driver that samples, limits it
   }
   CHECK(usual.warnings.empty());
   CHECK(usual.steps < 10000);
+}
+
+TEST_CASE(
+    "a law whose parameters are kept while its current stays rides as one that is asked anew") {
+  const GroundPointer road = make_ground("iso8608,class=C,speed=20", 1);
+  const LawModel law = driven(find_law("tanh_kwok"), 0);
+  std::size_t asked = 0;
+  const auto hidden =
+      std::make_shared<CountingModel>(std::make_unique<LawModel>(law), &asked);  // is no LawModel
+  for (const char* name : {"tudon_martinez2012", "half_car_a"})
+    for (const double rate_max : {20.0, double(INFINITY)}) {  // A/s
+      const Plant plant = load_plant_set(name).plant;
+      const ControlLimits limits;
+      const ControllerPointer skyhook = make_controller("skyhook", {limits, plant});
+      const auto ride = [&](std::shared_ptr<const DamperModel> model) {
+        const std::vector<MountedDamper> dampers(
+            plant.struts.size(), {.model = std::move(model), .driver = {.rate_max = rate_max}});
+        return simulate({plant, dampers, *road, skyhook.get()}, {.duration = 2}).record;
+      };
+      const Record kept = ride(std::make_shared<LawModel>(law)), anew = ride(hidden);
+      for (std::size_t k = 0; k < kept.channels.size(); ++k)
+        CHECK(kept.channels[k].samples == anew.channels[k].samples);
+      CHECK(greatest({.record = kept}, "body_acceleration") > 0.1);
+    }
+  CHECK(asked > 50000);
 }
 
 TEST_CASE("a force that jumps costs an error that is counted, not hours") {

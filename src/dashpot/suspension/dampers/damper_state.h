@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dashpot/controller.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/driver.h"
 #include "dashpot/mounted_damper.h"
 
@@ -50,6 +51,12 @@ class DamperState {
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept {
     return damper_->at_strut(damper_->model->flow(damper_->at_damper(input), state, rates));
+  }
+  /// The same of a damper that is this law, without a lag, with its parameters at the present
+  /// current.
+  double flow(const LawModel& law, const double* parameters, const DamperInput& input,
+              const double* state, double* rates) const noexcept {
+    return damper_->at_strut(law.flow(parameters, damper_->at_damper(input), state, rates));
   }
   /// The damper's own speed at this motion of the strut, m/s.
   double speed(const DamperInput& input) const noexcept {

@@ -10,6 +10,10 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
     : plant_(plant),
       ground_(ground),
       linear_(linear_plant(plant)),
+      sizes_{plant.size(), plant.struts.size(), plant.tyres.size()},
+      is_quarter_car_(sizes_.coordinates == QuarterCarSizes::coordinates &&
+                      sizes_.struts == QuarterCarSizes::struts &&
+                      sizes_.tyres == QuarterCarSizes::tyres),
       resting_(plant.size() * plant.tyres.size()) {
   for (const Strut& strut : plant.struts) resistances_.push_back(resistance_of(strut));
   for (const Tyre& tyre : plant.tyres) contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
@@ -39,10 +43,6 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   }
 }
 
-FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
-  return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
-}
-
 double PlantForces::tyre_load(std::size_t tyre, double t,
                               std::span<const double> x) const noexcept {
   // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
@@ -60,7 +60,7 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
   for (std::size_t s = 0; s < plant_.struts.size(); ++s)
     for (std::size_t k = 0; k < g.size(); ++k) g[k] -= plant_.struts[s].row[k] * strut_forces[s];
   for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
-    const double pushed = push(w, t, x);
+    const double pushed = push(w, t, x.data());
     for (std::size_t k = 0; k < g.size(); ++k) g[k] += plant_.tyres[w].row[k] * pushed;
   }
   if (shaken_.empty()) return;
@@ -68,38 +68,10 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
   for (std::size_t k = 0; k < g.size(); ++k) g[k] -= shaken_[k] * a;
 }
 
-double PlantForces::push(std::size_t which, double t, std::span<const double> x) const noexcept {
-  const std::vector<double>& row = plant_.tyres[which].row;
-  const TyreContact<double>& tyre = contacts_[which];
-  const FootMotion ground = foot(which, t);
-  const double push = road_push(tyre, ground.height, ground.velocity);
-  if (!plant_.tyres_may_lift) return push;
-
-  const double height = along(row, x.data()), rate = along(row, x.data() + plant_.size());
-  return push_on_wheel(tyre, push, dashpot::tyre_load(tyre, push, height, rate));
-}
-
 void PlantForces::accelerate(double t, std::span<const double> x,
                              std::span<const double> strut_forces,
                              std::span<double> out) const noexcept {
-  const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
-
-  // Row by row: shaking, state, strut forces.
-  const double* a = by_state_.data();
-  const double* b = by_strut_.data();
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    double sum = shaken_.empty() ? 0 : -plant_.ground[i] * shake;
-    for (const double value : x) sum += *a++ * value;
-    for (const double force : strut_forces) sum += *b++ * force;
-    out[i] = sum;
-  }
-
-  // The tyres, whose push depends on the road and on the motion.
-  const std::size_t tyres = plant_.tyres.size();
-  for (std::size_t w = 0; w < tyres; ++w) {
-    const double pushed = push(w, t, x);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += by_tyre_[i * tyres + w] * pushed;
-  }
+  accelerate(sizes_, t, x.data(), strut_forces.data(), out.data());
 }
 
 void PlantForces::resting_place(double t, std::span<double> q) const noexcept {

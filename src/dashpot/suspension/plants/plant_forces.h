@@ -11,6 +11,15 @@
 
 namespace dashpot {
 
+/// How many coordinates, struts and tyres a plant has.
+struct PlantSizes {
+  std::size_t coordinates, struts, tyres;
+};
+/// Those of a quarter car, which the compiler knows: its few sums are straight code, not loops.
+struct QuarterCarSizes {
+  static constexpr std::size_t coordinates = 2, struts = 1, tyres = 1;
+};
+
 /// Forces of a plant on its ground at an instant t, s, in SI. x = [q, q']. Plant and ground must
 /// outlive it. Evaluations allocate nothing.
 class PlantForces {
@@ -32,6 +41,21 @@ class PlantForces {
   /// q'' with these forces of struts.
   void accelerate(double t, std::span<const double> x, std::span<const double> strut_forces,
                   std::span<double> out) const noexcept;
+  /// run(sizes) with the sizes of this plant.
+  template <class Run>
+  void with_sizes(Run run) const {
+    if (is_quarter_car_)
+      run(QuarterCarSizes{});
+    else
+      run(sizes_);
+  }
+  /// The same as above for a caller that knows the sizes.
+  template <class Sizes>
+  DamperInput strut_motion(Sizes sizes, std::size_t strut, double t, const double* x,
+                           double current) const noexcept;
+  template <class Sizes>
+  void accelerate(Sizes sizes, double t, const double* x, const double* strut_forces,
+                  double* out) const noexcept;
   /// Where the plant would rest on the ground as it is, q; or with the ground at these heights, m,
   /// under its tyres.
   void resting_place(double t, std::span<double> q) const noexcept;
@@ -47,10 +71,12 @@ class PlantForces {
   const Plant& plant_;
   const GroundMotion& ground_;
   LinearPlant linear_;
+  PlantSizes sizes_;
+  bool is_quarter_car_;                               ///< has QuarterCarSizes
   std::vector<StrutResistance<double>> resistances_;  ///< one per strut
   std::vector<TyreContact<double>> contacts_;         ///< one per tyre
   /// The push of the road on a wheel, N, without the pull of a tyre that has lifted.
-  double push(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+  double push(std::size_t tyre, double t, const double* x) const noexcept;
   /// Adds where the plant would rest with this tyre alone on this height, m.
   void add_resting(std::size_t tyre, double height, std::span<double> q) const noexcept;
 
@@ -61,14 +87,62 @@ class PlantForces {
 
 inline DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<const double> x,
                                              double current) const noexcept {
+  return strut_motion(sizes_, strut, t, x.data(), current);
+}
+
+template <class Sizes>
+DamperInput PlantForces::strut_motion(Sizes sizes, std::size_t strut, double t, const double* x,
+                                      double current) const noexcept {
   const Strut& s = plant_.struts[strut];
-  DamperInput motion{along(s.row, x.data()), along(s.row, x.data() + plant_.size()), current};
+  const double* const row = s.row.data();
+  DamperInput motion{0, 0, current};
+  for (std::size_t k = 0; k < sizes.coordinates; ++k) motion.displacement += row[k] * x[k];
+  for (std::size_t k = 0; k < sizes.coordinates; ++k)
+    motion.velocity += row[k] * x[sizes.coordinates + k];
   if (s.track) {
     const FootMotion ground = ground_.foot(t, *s.track, 0);
     motion.displacement -= ground.height;
     motion.velocity -= ground.velocity;
   }
   return motion;
+}
+
+template <class Sizes>
+void PlantForces::accelerate(Sizes sizes, double t, const double* x, const double* strut_forces,
+                             double* out) const noexcept {
+  const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
+
+  // Row by row: shaking, state, strut forces.
+  const double* a = by_state_.data();
+  const double* b = by_strut_.data();
+  for (std::size_t i = 0; i < sizes.coordinates; ++i) {
+    double sum = shaken_.empty() ? 0 : -plant_.ground[i] * shake;
+    for (std::size_t k = 0; k < 2 * sizes.coordinates; ++k) sum += *a++ * x[k];
+    for (std::size_t s = 0; s < sizes.struts; ++s) sum += *b++ * strut_forces[s];
+    out[i] = sum;
+  }
+
+  // The tyres, whose push depends on the road and on the motion.
+  for (std::size_t w = 0; w < sizes.tyres; ++w) {
+    const double pushed = push(w, t, x);
+    for (std::size_t i = 0; i < sizes.coordinates; ++i)
+      out[i] += by_tyre_[i * sizes.tyres + w] * pushed;
+  }
+}
+
+inline double PlantForces::push(std::size_t which, double t, const double* x) const noexcept {
+  const TyreContact<double>& tyre = contacts_[which];
+  const FootMotion ground = foot(which, t);
+  const double push = road_push(tyre, ground.height, ground.velocity);
+  if (!plant_.tyres_may_lift) return push;
+
+  const std::vector<double>& row = plant_.tyres[which].row;
+  const double height = along(row, x), rate = along(row, x + plant_.size());
+  return push_on_wheel(tyre, push, dashpot::tyre_load(tyre, push, height, rate));
+}
+
+inline FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
+  return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
 }
 
 inline double PlantForces::strut_extra(std::size_t strut,

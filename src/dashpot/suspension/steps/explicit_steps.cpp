@@ -50,9 +50,13 @@ class ExplicitSteps final : public StepMethod {
       const bool last = done + next_ >= length * (1 - 1e-12);
       const double h = last ? length - done : next_;
       attempt(done, h);
-      const double error = distance(h), wanted = h * step_factor(error, Method::kPower);
-      const bool bad = !(error <= 1);
-      next_ = std::max(last && !bad ? std::max(next_, wanted) : wanted, least.shortest());
+      const double error = distance(h);
+      const bool bad = !(error <= 1), keeps = last && !bad;
+      if (!keeps || !is_longer(next_, h, error)) {
+        const double wanted = h * step_factor(error, Method::kPower);
+        next_ = keeps ? std::max(next_, wanted) : wanted;
+      }
+      next_ = std::max(next_, least.shortest());
       if (!turns_.empty() && !std::isnan(error)) {
         const double until = meet_turns(h, length);
         if (until < h) {

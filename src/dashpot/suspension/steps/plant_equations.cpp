@@ -15,7 +15,11 @@ PlantEquations::PlantEquations(const PlantForces& forces, const PlantState& star
       strut_forces_(start.dampers.size()),
       speeds_(start.dampers.size()),
       steady_(start.dampers.size()) {
-  for (const DamperState& damper : start.dampers) size_ += damper.model_state().size();
+  for (const DamperState& damper : start.dampers) {
+    size_ += damper.model_state().size();
+    const auto* law = model_as<LawModel>(damper.model());
+    laws_.push_back({law && law->lag_rate() == 0 ? law : nullptr});
+  }
   states_.resize(size_ - start.x.size());
 }
 
@@ -40,6 +44,10 @@ void PlantEquations::read(const PlantState& state, double* y) {
     y = std::copy(z.begin(), z.end(), y);
     currents_[s] = state.dampers[s].current();
     steady_[s] = state.dampers[s].is_steady();
+    SteadyLaw& steady = laws_[s];
+    if (!steady.law || !steady_[s] || currents_[s] == steady.current) continue;
+    steady.current = currents_[s];
+    steady.law->parameters_at(steady.current, steady.parameters.data());
   }
 
   // A loop goes on along its branch where z is as it was left.
@@ -49,8 +57,12 @@ void PlantEquations::read(const PlantState& state, double* y) {
 }
 
 void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
-  const std::size_t n = coordinates_;
-  const std::span<const double> x(y, 2 * n);
+  forces_.with_sizes([&](auto sizes) { rates_of(sizes, after, y, dy); });
+}
+
+template <class Sizes>
+void PlantEquations::rates_of(Sizes sizes, double after, const double* y, double* dy) noexcept {
+  const std::size_t n = sizes.coordinates;
   const double t = state_->time + after;
   double* dz = dy + 2 * n;
 
@@ -68,12 +80,14 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
   }
 
   // Each damper's force, and the rates of its states.
-  for (std::size_t s = 0; s < currents_.size(); ++s) {
+  for (std::size_t s = 0; s < sizes.struts; ++s) {
     const DamperState& damper = state_->dampers[s];
     const std::size_t count = damper.model_state().size();
     const double current = steady_[s] ? currents_[s] : damper.current_after(after);
-    const DamperInput motion = forces_.strut_motion(s, t, x, current);
-    damper_forces_[s] = damper.flow(motion, {z, count}, {dz, count});
+    const DamperInput motion = forces_.strut_motion(sizes, s, t, y, current);
+    damper_forces_[s] = laws_[s].law && steady_[s]
+                            ? damper.flow(*laws_[s].law, laws_[s].parameters.data(), motion, z, dz)
+                            : damper.flow(motion, {z, count}, {dz, count});
     strut_forces_[s] = damper_forces_[s] + forces_.strut_extra(s, motion);
     speeds_[s] = damper.speed(motion);
     z += count;
@@ -87,7 +101,7 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
 
   // The motion under these forces.
   std::copy_n(y + n, n, dy);
-  forces_.accelerate(t, x, strut_forces_, {dy + n, n});
+  forces_.accelerate(sizes, t, y, strut_forces_.data(), dy + n);
 }
 
 void PlantEquations::write_forces(const double* dy, PlantState& state) const {

@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/suspension/dampers/law_loop.h"
 #include "dashpot/suspension/steps/step_method.h"
 
@@ -11,6 +14,13 @@ struct FollowedLoop {
   std::optional<std::size_t> series;   ///< the place in y whose rate the loop's speed is less by
   double r = 0, z = NAN;               ///< as last written into a state
   double m = 0, steep = 1, along = 0;  ///< at the last call of rates(): LoopPath's
+};
+
+/// A damper that is a law without a lag: its parameters stay as they are while its current does.
+struct SteadyLaw {
+  const LawModel* law = nullptr;  ///< null: some other model
+  double current = NAN;
+  std::array<double, kMaxParams> parameters{};
 };
 
 /// A plant whose dampers flow as y' = f(t, y), y = [q, q', states of each damper's model]. The
@@ -37,11 +47,16 @@ class PlantEquations {
   void write_forces(const double* dy, PlantState& state) const;
 
  private:
+  /// rates() of a plant with these sizes.
+  template <class Sizes>
+  void rates_of(Sizes sizes, double after, const double* y, double* dy) noexcept;
+
   const PlantForces& forces_;
   std::size_t coordinates_, size_;
   const PlantState* state_ = nullptr;
   std::vector<double> currents_, damper_forces_, strut_forces_, speeds_;
-  std::vector<bool> steady_;  ///< whether a coil's current stays as it is
+  std::vector<char> steady_;     ///< whether a coil's current stays as it is
+  std::vector<SteadyLaw> laws_;  ///< one per damper
   std::vector<FollowedLoop> loops_;
   std::vector<double> states_;  ///< of the dampers at the last call of rates(), loops by their z
 };

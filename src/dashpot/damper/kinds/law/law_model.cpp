@@ -138,12 +138,9 @@ double LawModel::flow(const DamperInput& input, std::span<const double> state,
                       std::span<double> rates) const noexcept {
   if (lag_rate_ > 0)
     rates[law_->states.size()] = lag_rate_ * (input.current - state[law_->states.size()]);
-  if (!law_->flow) return force(input, state);
   Params p;
   parameters_at(coil_current(input, state), p.data());
-  const double force =
-      law_->flow(p.data(), input.displacement, input.velocity, state.data(), rates.data());
-  return law_->side_row > 0 ? force + side_force(*law_, p.data(), input.velocity) : force;
+  return flow(p.data(), input, state.data(), rates.data());
 }
 
 std::unique_ptr<DamperModel> LawModel::with_offset(double newton) const {

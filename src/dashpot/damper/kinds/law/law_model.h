@@ -7,6 +7,7 @@
 
 #include "dashpot/damper/dependence.h"
 #include "dashpot/damper/law.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/damper_model.h"
 #include "dashpot/drive.h"
 
@@ -42,6 +43,15 @@ class LawModel final : public DamperModel {
   bool flows() const noexcept override { return !steps_itself_; }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;
+  /// flow() of a law without a lag, with its parameters at the input's current, for whoever has
+  /// them at hand.
+  double flow(const double* parameters, const DamperInput& input, const double* state,
+              double* rates) const noexcept {
+    const double x = input.displacement, v = input.velocity;
+    const double force = law_->flow ? law_->flow(parameters, x, v, state, rates)
+                                    : law_->force(parameters, x, v, state);
+    return law_->side_row > 0 ? force + side_force(*law_, parameters, v) : force;
+  }
   const LawModel* law_inside() const noexcept override { return this; }
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
