@@ -53,7 +53,7 @@ class OwnRides {
 
  private:
   std::string wheel() const {
-    return dampers_.size() == 1 ? "wheel" : plant_.tyres[0].name + "_wheel";
+    return dampers_.size() == 1 ? "wheel" : plant_.struts[0].name + "_wheel";
   }
 
   dashpot::Plant plant_;

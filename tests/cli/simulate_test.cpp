@@ -115,8 +115,10 @@ TEST_CASE("simulate: the same bits on a processor without AVX-512" * doctest::te
   const std::string arguments =
       " simulate --controller mix1 --road iso8608,class=C --duration 0.5 --json";
   const std::string here = "DASHPOT_SIMD=avx2 ", there = here + "qemu-x86_64 -cpu Haswell ";
-  const ProgramResult native = run_program(here + program_path() + arguments + " 2>/dev/null");
-  const ProgramResult emulated = run_program(there + program_path() + arguments + " 2>/dev/null");
+  const auto printed = [&](const std::string& how) {
+    return run_program("( " + how + program_path() + arguments + " 2>/dev/null )");
+  };
+  const ProgramResult native = printed(here), emulated = printed(there);
   REQUIRE(native.exit_code == 0);
   CHECK(native.output == emulated.output);
 }

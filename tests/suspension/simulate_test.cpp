@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "damper/inverse/inverses.h"
 #include "dashpot/base/random.h"
@@ -370,6 +371,21 @@ TEST_CASE("sensors of a car see the body's motion late and rounded, and mix1 sti
   CHECK(ideal != real);
   CHECK_CLOSE(real, ideal, 0.15, 0);
   CHECK(real < 0.75 * comfort(*hard, false));
+}
+
+TEST_CASE("no two channels of a trace have one name") {
+  // A strut and a tyre at one corner each have a deflection.
+  for (const char* name : {"tudon_martinez2012", "half_car_a", "full_car"}) {
+    CAPTURE(name);
+    const Plant plant = load_plant_set(name).plant;
+    const std::vector<MountedDamper> dampers(plant.struts.size(), linear_damper(900, 3000));
+    const GroundPointer road = make_ground("bump,height=2cm", 1);
+    const Trace trace = simulate({plant, dampers, *road}, {.duration = 0.01});
+    std::set<std::string> names;
+    for (const Channel& channel : trace.record.channels) CHECK(names.insert(channel.name).second);
+    for (const Strut& strut : plant.struts) CHECK(names.count(strut.name + "_deflection") == 1);
+    for (const Tyre& tyre : plant.tyres) CHECK(names.count(tyre.name + "_deflection") == 1);
+  }
 }
 
 TEST_CASE("settings that do not fit together are refused") {

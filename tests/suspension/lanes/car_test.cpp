@@ -119,7 +119,7 @@ TEST_CASE("a half car whose ends do not move each other rides as two quarter car
     CHECK(apart(car, "front_deflection", at_front, "suspension_deflection") < 1e-6);
     CHECK(apart(car, "rear_deflection", at_rear, "suspension_deflection") < 1e-6);
     CHECK(apart(car, "rear_current", at_rear, "suspension_current") < 1e-6);
-    CHECK(apart(car, "front_load", at_front, "tyre_load") < 1e-6);
+    CHECK(apart(car, "front_tyre_load", at_front, "tyre_load") < 1e-6);
 
     // Of two struts and tyres the worst one counts; energies add up.
     const BatchMeasures &whole = rides[0].measures, &f = rides[1].measures, &r = rides[2].measures;

@@ -243,18 +243,14 @@ BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
       m.current += i / static_cast<double>(current.size() * plant.struts.size());
   }
 
-  // The worst tyre. Its deflection follows from wheel and road, since a strut may have its name.
+  // The worst tyre.
   for (const Tyre& tyre : plant.tyres) {
-    const auto load = samples(tyre.name + "_load"), road = samples(tyre.name + "_road");
-    std::vector<double> more(load.begin(), load.end()), deflection(road.size());
+    const auto load = samples(tyre.name + "_load");
+    std::vector<double> more(load.begin(), load.end());
     for (double& value : more) value -= tyre.static_load;
-    for (std::size_t c = 0; c < plant.size(); ++c) {
-      const auto q = samples(plant.coordinates[c].name);
-      for (std::size_t k = 0; k < q.size(); ++k) deflection[k] += tyre.row[c] * q[k];
-    }
-    for (std::size_t k = 0; k < road.size(); ++k) deflection[k] -= road[k];
     m.tyre_load = std::max(m.tyre_load, root_mean_square(more));
-    m.tyre_deflection = std::max(m.tyre_deflection, root_mean_square(deflection));
+    m.tyre_deflection =
+        std::max(m.tyre_deflection, root_mean_square(samples(tyre.name + "_deflection")));
   }
   return m;
 }

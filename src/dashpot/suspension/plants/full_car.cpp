@@ -54,7 +54,7 @@ Plant make(std::span<const double> p) {
                            .stiffness = p[front ? kFrontSpring : kRearSpring],
                            .damping = p[front ? kFrontDamping : kRearDamping]});
     plant.tyres.push_back(
-        {.name = names[k],
+        {.name = std::string(names[k]) + "_tyre",
          .row = unit(3 + k),
          .stiffness = p[kTyre],
          .static_load = (0.5 * p[kMass] * (front ? b : a) / (a + b) + p[kWheel]) * g,

@@ -40,11 +40,11 @@ Plant make(std::span<const double> p) {
                          .damping = p[kRearDamping]});
 
   // Each axle carries the body's weight by the lever of the other.
-  plant.tyres = {{.name = "front",
+  plant.tyres = {{.name = "front_tyre",
                   .row = {0, 0, 1, 0},
                   .stiffness = p[kFrontTyre],
                   .static_load = (p[kMass] * b / (a + b) + p[kFrontWheel]) * kGravity},
-                 {.name = "rear",
+                 {.name = "rear_tyre",
                   .row = {0, 0, 0, 1},
                   .stiffness = p[kRearTyre],
                   .static_load = (p[kMass] * a / (a + b) + p[kRearWheel]) * kGravity,
