@@ -76,13 +76,14 @@ double by_simulate(const LawRide& ride, double relative, RideTrace* trace) {
                              .sample_time = kSample};
   const std::vector<MountedDamper> dampers{ride.mounted};
   static const GroundPointer road = drive_over(ride_road(0), kSpeed);
-  const ControllerPointer mix1 = make_controller("mix1,crossover=1.9Hz", {limits, ride_plant()});
+  static const Plant plant = ride_plant(Ride::Network);
+  const ControllerPointer mix1 = make_controller("mix1,crossover=1.9Hz", {limits, plant});
   const double start = cpu_seconds();
   const Trace result =
-      simulate({ride_plant(), dampers, *road, mix1.get()}, {.duration = kSamples * kSample,
-                                                            .relative_tolerance = relative,
-                                                            .absolute_tolerance = relative * 1e-3,
-                                                            .limits = limits});
+      simulate({plant, dampers, *road, mix1.get()}, {.duration = kSamples * kSample,
+                                                     .relative_tolerance = relative,
+                                                     .absolute_tolerance = relative * 1e-3,
+                                                     .limits = limits});
   const double seconds = cpu_seconds() - start;
   if (trace) *trace = trace_of(result.record);
   return seconds;
