@@ -179,8 +179,8 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
   fit.cases = cases;
   fit.found.sources = first_noise(setup, cases, residuals, scale);
   int iterations = 0;
-  bool has_enough_steps = false;
-  for (int turn = 0; turn < kTurns; ++turn) {
+  bool has_enough_steps = false, stays = false;
+  for (int turn = 0; turn < kTurns && !stays; ++turn) {
     options.monitor.report("fit beside noise, turn " + std::to_string(turn + 1), 0.7 + 0.02 * turn);
 
     // The noise about the unknowns.
@@ -218,8 +218,16 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
       cases = std::move(without);
     }
     if (has_enough_steps || turn + 1 == kTurns) fit.spread = spread_beside_noise(problem, solved);
-    if (has_enough_steps && way < kStays) break;
+    stays = has_enough_steps && way < kStays;
   }
+  if (fit.noise.empty())
+    report.warnings.push_back(
+        "the noise of the inputs could not be told: the numbers of the plant may lean by it, and "
+        "their intervals do not know it");
+  else if (!stays)
+    report.warnings.push_back(
+        "the noise of the inputs and the unknowns had not settled beside each other: do not rely "
+        "on the intervals");
   solved.iterations = iterations;
   return solved;
 }
