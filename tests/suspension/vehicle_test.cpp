@@ -43,6 +43,16 @@ TEST_CASE("dampers by words") {
   CHECK(choose_damper("suv_rear").is_passive());
 }
 
+TEST_CASE("a plant whose damper has one damping rides on that, unasked") {
+  // Of four published sets the range is a point.
+  for (const char* name : {"baig", "ctms_bus", "half_car_a", "robust_control_demo"}) {
+    CAPTURE(name);
+    const Vehicle vehicle = make_vehicle({.plant = name});
+    CHECK(vehicle.damper_names.front().starts_with("viscous, "));
+  }
+  CHECK(make_vehicle({.plant = "ikenaga2000"}).damper_names.front().starts_with("ideal, "));
+}
+
 TEST_CASE("friction that jumps is smoothed, with a note; a speed that is stated stays") {
   const TemporaryFolder folder;
   const auto file = [&](double speed) {

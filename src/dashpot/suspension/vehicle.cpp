@@ -52,8 +52,10 @@ std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantS
   if (texts.empty()) {
     if (!set.damping)
       throw Error(words.where, set.name + " states no damper of its own", "name one");
-    texts = {"ideal,damping_min=" + format_exact(set.damping->least) +
-             ",damping_max=" + format_exact(set.damping->greatest)};
+    const auto& [least, nominal, greatest] = *set.damping;
+    texts = {least < greatest ? "ideal,damping_min=" + format_exact(least) +
+                                    ",damping_max=" + format_exact(greatest)
+                              : "viscous,damping=" + format_exact(nominal)};
   }
 
   // One text for all struts, or one per strut.
