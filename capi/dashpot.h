@@ -235,8 +235,9 @@ typedef struct dashpot_ranking dashpot_ranking;
 /// not seen, ranks them. Options as for dashpot_fit, and "leave_out": "condition", "current=0.5",
 /// "blocks=5", "fraction=0.3" ...; "models" may hold the groups "usual" (when absent), "all" and
 /// "family"; "budget": minutes on two cores, by estimated cost, that the models of "usual" (when
-/// absent: 2) and "all" (when absent: no limit) may take, 0: no limit. The report says what was not
-/// tried.
+/// absent: 2) and "all" (when absent: no limit) may take, 0: no limit; "keep_inertia": true leaves
+/// the force as recorded where errors left out show an inertia between load cell and damper. The
+/// report says what was not tried.
 DASHPOT_API dashpot_status dashpot_identify(const dashpot_recordings* recordings,
                                             const char* options, const dashpot_monitor* monitor,
                                             dashpot_ranking** ranking);

@@ -60,7 +60,7 @@ void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* moni
   *model = new dashpot_model(fitted_file(std::move(fitted), dataset, options));
 }
 
-Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_monitor* monitor) {
+Ranking rank_watched(Dataset& dataset, FitOptions& options, const dashpot_monitor* monitor) {
   const LeaveOut leave_out = options.leave_out ? *options.leave_out : default_leave_out(dataset);
   const ChosenModels models = choose_models(options.words, dataset, leave_out, "options, budget");
   for (const std::string& name : models.passed_over)
@@ -72,7 +72,8 @@ Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_
   Ranking ranking;
   run_watched(monitor, [&](const Monitor& watched) {
     asked.monitor = watched;
-    ranking = rank(models.names, dataset, leave_out, asked);
+    ranking = options.keep_inertia ? rank(models.names, dataset, leave_out, asked)
+                                   : rank_without_inertia(models.names, dataset, leave_out, asked);
   });
   ranking.budget = models.budget;
   return ranking;

@@ -74,6 +74,7 @@ FitOptions read_fit_options(const char* text) {
   // A single fit leaves nothing out; its file keeps the command that made it.
   if (const Value* leave_out = reader.optional("leave_out"))
     out.leave_out = parse_leave_out(leave_out->as_string());
+  out.keep_inertia = reader.boolean("keep_inertia", out.keep_inertia);
   out.command = reader.string("command", "");
 
   // A key that nothing has read is a mistake of the caller's.

@@ -13,6 +13,7 @@ namespace dashpot::capi {
 struct FitOptions {
   FitWords words;
   std::optional<LeaveOut> leave_out;
+  bool keep_inertia = false;
   std::string command;
 };
 /// Throws Error naming the key on anything unknown. Null stands for {}.

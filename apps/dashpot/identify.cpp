@@ -16,6 +16,7 @@ struct IdentifySettings {
   RideRankSettings ride;
   KitSettings kit;
   std::string validate;  ///< further recordings, never fitted; empty: none
+  bool keep_inertia = false;
   InPlantSettings plant;
 };
 
@@ -76,14 +77,17 @@ int run_identify(const IdentifySettings& asked, Console& console) {
 
   // All that may be refused is read before the first fit.
   const std::optional<RideRankOptions> ride = stated_ride(asked.ride, settings, console);
-  const RankingData data = ranking_data(settings, console);
+  RankingData data = ranking_data(settings, console);
   const std::unique_ptr<FitStore> store = fit_store(settings, console);
   const ChosenModels models = chosen_models(settings.fit, data.dataset, data.leave_out, console);
   const std::optional<Dataset> further = further_recordings(asked, data.dataset, console);
   IdentifyOptions options = identify_options(settings.fit, models.names, console);
   options.from = first_starts(settings.fit, models.names, data.dataset);
 
-  Ranking ranking = rank(models.names, data.dataset, data.leave_out, options, store.get());
+  Ranking ranking =
+      asked.keep_inertia
+          ? rank(models.names, data.dataset, data.leave_out, options, store.get())
+          : rank_without_inertia(models.names, data.dataset, data.leave_out, options, store.get());
   if (further) validate(ranking, *further, options);
   if (ranking.kept_fits > 0)
     console.note(counted(ranking.kept_fits, "fit") +
@@ -121,14 +125,19 @@ Command identify_command() {
   // The effort, what a fit starts from, and what judges it beside the records left out.
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
                            fresh_option(settings->ranking)});
-  append(command.options,
-         {from_option(settings->ranking),
-          {.names = "--validate",
-           .target = &settings->validate,
-           .help = "further recordings that no fit sees: the final models are judged on them "
-                   "beside the records left out",
-           .value = "FOLDER",
-           .takes = Takes::File}});
+  append(
+      command.options,
+      {from_option(settings->ranking),
+       {.names = "--validate",
+        .target = &settings->validate,
+        .help = "further recordings that no fit sees: the final models are judged on them "
+                "beside the records left out",
+        .value = "FOLDER",
+        .takes = Takes::File},
+       {.names = "--keep-inertia",
+        .target = &settings->keep_inertia,
+        .help = "leave the force as it was recorded where the errors left out show the inertia of "
+                "what moves between load cell and damper"}});
   append(command.options, kit_options(settings->kit));
 
   // The vehicle that the models are ridden in, or the plant that the damper was recorded in.

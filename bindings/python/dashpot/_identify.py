@@ -113,6 +113,7 @@ def identify(
     leave_out: Optional[str] = None,
     *,
     budget: Optional[float] = None,
+    keep_inertia: bool = False,
     progress: Progress = None,
     **options,
 ) -> Ranking:
@@ -122,6 +123,7 @@ def identify(
     leave_out: "condition", "current=0.5", "record", "blocks=5", "fraction=0.3", "each=gap" (None: as the dataset file says,
     else the strictest that the recordings allow). budget: minutes on two cores, by estimated cost, that the models
     of "usual" (None: 2) and "all" (None: no limit) may take, 0: no limit; `Ranking.untried` is what was not tried.
+    keep_inertia: leave the force as recorded where errors left out show an inertia between load cell and damper.
     progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
     line has them: ["alpha=exponential"]), allow_active (keep models that feed energy in), asymmetric (take rebound and
@@ -134,6 +136,8 @@ def identify(
     asked = {"models": words(models), "command": "dashpot.identify (Python)", **fit_options(**options)}
     if leave_out is not None:
         asked["leave_out"] = leave_out
+    if keep_inertia:
+        asked["keep_inertia"] = True
     if budget is not None:
         asked["budget"] = budget
     return Ranking(_core.identify(data._core, json.dumps(asked), progress))

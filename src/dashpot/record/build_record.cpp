@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/differentiate.h"
+#include "dashpot/record/inertia.h"
 #include "dashpot/record/integrate.h"
 #include "dashpot/record/time_base.h"
 
@@ -371,25 +372,11 @@ void note_direction(Record& record, const RawTable& table, const ColumnUses& use
                            "cell's zero");
 }
 
-/// m/s^2: as recorded, else derived from the velocity without phase. Empty where the time stamps
-/// are not uniform or too few.
-std::vector<double> acceleration_of(const Record& record) {
-  if (const Channel* recorded = record.find("acceleration")) return recorded->samples;
-  constexpr std::size_t kFewest = 4;
-  if (!(record.sample_time > 0) || record.size() < kFewest) return {};
-  const std::vector<double>& v = record.channel("velocity").samples;
-  return differentiate_zero_phase(v, record.sample_time, choose_cutoff_hz(v, record.sample_time));
-}
-
-/// A load cell on the side that moves feels the inertia of what lies between it and the damper.
-/// Takes it off where that mass is stated; notes what a kilogram of it adds where nobody has and
-/// where it would be felt.
-void take_off_inertia(Record& record, const ColumnUses& uses) {
-  const double mass = find_use(uses, "force")->moving_mass;
-  const std::vector<double> acceleration = acceleration_of(record);
-  std::vector<double>& force = record.find("force")->samples;
-  if (acceleration.empty()) {
-    if (mass > 0)
+/// Takes the inertia between load cell and damper off where that mass is stated; notes what a
+/// kilogram of it adds where nobody has and where it would be felt.
+void settle_inertia(Record& record, const ColumnUses& uses) {
+  if (const double mass = find_use(uses, "force")->moving_mass; mass > 0) {
+    if (!take_off_inertia(record, mass))
       throw Error(record.source,
                   "'moving_mass' needs an acceleration, and none can be derived: the time stamps "
                   "are not uniform",
@@ -397,26 +384,16 @@ void take_off_inertia(Record& record, const ColumnUses& uses) {
     return;
   }
 
-  // The greatest inertia that is usual: one sample of noise is no motion.
-  std::vector<double> size = acceleration;
-  for (double& a : size) a = std::abs(a);
-  const auto usual = size.begin() + static_cast<std::ptrdiff_t>(0.99 * double(size.size()));
-  std::ranges::nth_element(size, usual);
-
-  if (mass > 0) {
-    for (std::size_t k = 0; k < force.size(); ++k) force[k] -= mass * acceleration[k];
-    record.notes.push_back("inertia of " + format_number(mass) +
-                           " kg between load cell and damper taken off: up to " +
-                           format_number(mass * *usual, 3) + " N");
-    return;
-  }
+  const std::vector<double> acceleration = acceleration_of(record);
+  if (acceleration.empty()) return;
   constexpr double kFelt = 0.02;  // of the force's half span
-  const auto [low, high] = std::ranges::minmax_element(force);
+  const double usual = usual_acceleration(acceleration);
+  const auto [low, high] = std::ranges::minmax_element(record.channel("force").samples);
   const double half_span = 0.5 * (*high - *low);
-  if (*usual > kFelt * half_span)
+  if (usual > kFelt * half_span)
     record.notes.push_back("each kilogram that moves between load cell and damper adds up to " +
-                           format_number(*usual, 3) + " N (" +
-                           format_number(100 * *usual / half_span, 2) +
+                           format_number(usual, 3) + " N (" +
+                           format_number(100 * usual / half_span, 2) +
                            " % of the force's half span); where there is such a mass, "
                            "'moving_mass' of force takes it off");
 }
@@ -584,7 +561,7 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   add_velocity(record, context);
   if (!context.as_given) add_displacement(record);
   settle_sign(record, uses);
-  take_off_inertia(record, uses);
+  settle_inertia(record, uses);
   if (!context.as_given) note_direction(record, table, uses);
   doubt_units(record, uses);
   add_drive(record, context.level, built.drive_note);

@@ -27,11 +27,10 @@ constexpr std::string_view kLegend =
 
 /// Whether the error that the best model leaves follows the acceleration.
 std::vector<std::string> inertia_remarks(const Ranking& ranking) {
-  constexpr double kTold = 0.1;  // of the error's sum of squares
   if (ranking.models.empty()) return {};
   const RankedModel& best = ranking.models.front();
   const LeftInertia left = left_inertia(best.left_out);
-  if (left.share < kTold || left.mass < 0) return {};
+  if (!left.is_told()) return {};
   return {fmt::format(
       "{} % of the squared error that {} leaves on left-out records follows the acceleration, as "
       "{} kg between load cell and damper would make it, or a hysteresis that the model lacks. "
@@ -91,6 +90,7 @@ DocumentSection ranking_section(const Ranking& ranking) {
     paragraphs.push_back(*untried);
   if (const std::optional<std::string> validated = validation_note(ranking))
     paragraphs.push_back(*validated);
+  if (const std::optional<std::string> freed = inertia_note(ranking)) paragraphs.push_back(*freed);
   return {.name = "ranking",
           .title = "Ranking",
           .paragraphs = std::move(paragraphs),

@@ -298,6 +298,11 @@ Value json_report(const ReportInput& input) {
 
   // Only a ranking whose models Dashpot chose has a budget.
   if (ranking.budget) report.add("budget", budget_json(ranking));
+  if (ranking.inertia)
+    report.add("inertia", Value::object({{"mass_kg", ranking.inertia->mass},
+                                         {"model", ranking.inertia->model},
+                                         {"rmse_before_N", ranking.inertia->before},
+                                         {"rmse_after_N", ranking.inertia->after}}));
   if (!ranking.validated_on.empty()) report.add("validated_on", ranking.validated_on);
   if (ranking.ridden) report.add("ride", ridden_json(ranking));
   return presentable(std::move(report));

@@ -161,6 +161,21 @@ std::optional<std::string> difference_note(const Ranking& ranking) {
           : counted(compared->behind->units, ranking.unit));
 }
 
+std::optional<std::string> inertia_note(const Ranking& ranking) {
+  if (!ranking.inertia) return std::nullopt;
+  const FoundInertia& found = *ranking.inertia;
+  const std::string mass = format_number(found.mass, 3);
+  return fmt::format(
+      "The inertia of {} kg between load cell and damper is taken off the force of all records: "
+      "the "
+      "errors on left-out records showed it, and {} leaves {} {} of them in place of {} {} (RMSE). "
+      "A "
+      "dataset file tells other commands, force: {{..., moving_mass: {}}}; with "
+      "--keep-inertia the force stays as it was recorded.",
+      mass, found.model, quantity(found.after, "N"), unit_name("N"), quantity(found.before, "N"),
+      unit_name("N"), mass);
+}
+
 std::optional<std::string> budget_note(const Ranking& ranking) {
   if (!ranking.budget) return std::nullopt;
   const FitBudget& budget = *ranking.budget;

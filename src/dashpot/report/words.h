@@ -44,6 +44,8 @@ std::optional<std::string> difference_note(const Ranking& ranking);
 std::optional<std::string> budget_note(const Ranking& ranking);
 /// What the first model leaves of further recordings, which no fit has seen; nothing without any.
 std::optional<std::string> validation_note(const Ranking& ranking);
+/// What was taken off the force before the models were ranked, and what follows for other commands.
+std::optional<std::string> inertia_note(const Ranking& ranking);
 /// The one-step errors of models that feed force back, or that there are none; nothing when models
 /// failed.
 std::optional<std::string> one_step_note(const Ranking& ranking);

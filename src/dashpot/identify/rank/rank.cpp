@@ -27,6 +27,7 @@
 #include "dashpot/identify/rank/information.h"
 #include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/identify/rank/rank_and_tell.h"
+#include "dashpot/record/inertia.h"
 
 namespace dashpot {
 namespace {
@@ -495,11 +496,15 @@ void require_further(const Dataset& further, const Dataset& fitted) {
 
 void validate(Ranking& ranking, const Dataset& further, const IdentifyOptions& options) {
   ranking.validated_on = further.name;
+  std::vector<Record> records = further.records;
+  if (ranking.inertia)
+    for (Record& record : records) take_off_inertia(record, ranking.inertia->mass);
+
   parallel_for(ranking.models.size(), options.threads, [&](std::size_t k) {
     RankedModel& ranked = ranking.models[k];
     if (!ranked.fit.model) return;
     try {
-      ranked.validation = evaluate(*ranked.fit.model, further.records, further.drive_unit,
+      ranked.validation = evaluate(*ranked.fit.model, records, further.drive_unit,
                                    {.offset = options.offset,
                                     .known_offsets = {},
                                     .band = ranked.band,

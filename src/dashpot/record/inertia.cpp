@@ -1,0 +1,39 @@
+#include "dashpot/record/inertia.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/record/differentiate.h"
+
+namespace dashpot {
+
+std::vector<double> acceleration_of(const Record& record) {
+  if (const Channel* recorded = record.find("acceleration")) return recorded->samples;
+  constexpr std::size_t kFewest = 4;
+  if (!(record.sample_time > 0) || record.size() < kFewest) return {};
+  const std::vector<double>& v = record.channel("velocity").samples;
+  return differentiate_zero_phase(v, record.sample_time, choose_cutoff_hz(v, record.sample_time));
+}
+
+double usual_acceleration(const std::vector<double>& acceleration) {
+  std::vector<double> size = acceleration;
+  for (double& a : size) a = std::abs(a);
+  const auto usual = size.begin() + static_cast<std::ptrdiff_t>(0.99 * double(size.size()));
+  std::ranges::nth_element(size, usual);
+  return *usual;
+}
+
+bool take_off_inertia(Record& record, double mass) {
+  const std::vector<double> acceleration = acceleration_of(record);
+  if (acceleration.empty()) return false;
+
+  std::vector<double>& force = record.find("force")->samples;
+  for (std::size_t k = 0; k < force.size(); ++k) force[k] -= mass * acceleration[k];
+  record.notes.push_back("inertia of " + format_number(mass) +
+                         " kg between load cell and damper taken off: up to " +
+                         format_number(mass * usual_acceleration(acceleration), 3) + " N");
+  return true;
+}
+
+}  // namespace dashpot
