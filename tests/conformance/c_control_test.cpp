@@ -19,7 +19,8 @@ void write_controllers(const TemporaryFolder& folder, CPrecision precision) {
 
 }  // namespace
 
-TEST_CASE("exported controllers: every law gives the library's commands within 1e-12") {
+TEST_CASE("exported controllers: every law gives the library's commands within 1e-12" *
+          doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_controllers(folder, CPrecision::Double);

@@ -21,7 +21,8 @@ void write_dampers(const TemporaryFolder& folder, CPrecision precision) {
 }  // namespace
 
 TEST_CASE(
-    "exported C: every kind of model in double precision gives the library's force within 1e-12") {
+    "exported C: every kind of model in double precision gives the library's force within 1e-12" *
+    doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_dampers(folder, CPrecision::Double);

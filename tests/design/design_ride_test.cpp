@@ -40,7 +40,8 @@ double comfort_of(const DamperDescription& damper, const DesignRequest& request)
 
 }  // namespace
 
-TEST_CASE("a design for comfort: the drawing whose damper rides best in its plant") {
+TEST_CASE("a design for comfort: the drawing whose damper rides best in its plant" *
+          doctest::test_suite("long")) {
   const DesignReport report = ridden_design(
       "ride: {plant: savaresi_spelta, controller: skyhook, road: 'iso8608,class=D', seed: 3, "
       "duration: 2 s}\ngoals: [{minimise: comfort}]");

@@ -135,7 +135,8 @@ void check_variables(pugi::xml_node root, Set units = {}) {
 
 }  // namespace
 
-TEST_CASE("FMU: every variable and unknown of every model is declared as the standard asks") {
+TEST_CASE("FMU: every variable and unknown of every model is declared as the standard asks" *
+          doctest::test_suite("long")) {
   for (const ExampleModel& model : example_models())
     for (const int version : {2, 3}) {
       CAPTURE(model.name);

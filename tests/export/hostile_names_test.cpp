@@ -302,7 +302,8 @@ TEST_CASE("hostile names: every exporter of controllers and inverses writes the 
   }
 }
 
-TEST_CASE("hostile names: exported C compiles without a warning, and does nothing but its work") {
+TEST_CASE("hostile names: exported C compiles without a warning, and does nothing but its work" *
+          doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   std::string all;

@@ -53,7 +53,8 @@ std::vector<PlantRecording> spencer_rides(double seconds) {
 
 }  // namespace
 
-TEST_CASE("without a road: masses, tyre and force of a damper of another structure are recovered") {
+TEST_CASE("without a road: masses, tyre and force of a damper of another structure are recovered" *
+          doctest::test_suite("long")) {
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), unmeasured_car(), spencer_rides(12), {});
   CAPTURE(report.message);

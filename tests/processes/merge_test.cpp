@@ -32,7 +32,8 @@ std::string run_in_parts(const std::string& command, int parts, const fs::path& 
 
 }  // namespace
 
-TEST_CASE("rank in three parts on unlike machines: joined, it is what one process finds") {
+TEST_CASE("rank in three parts on unlike machines: joined, it is what one process finds" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string command =
       "rank " + small_campaign().string() + " --models bingham,tanh_kwok --simd sse2";
@@ -57,7 +58,7 @@ TEST_CASE("rank in three parts on unlike machines: joined, it is what one proces
   if (other.exit_code == 0) CHECK(!contains(other.output, "kept from before"));
 }
 
-TEST_CASE("search and sweep in parts") {
+TEST_CASE("search and sweep in parts" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string search =
       "search " + small_campaign().string() + " --over hidden=3,4 --method grid --network epochs=3";

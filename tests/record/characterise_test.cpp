@@ -87,7 +87,8 @@ const std::vector<double> kSpeeds = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65,
 
 }  // namespace
 
-TEST_CASE("a multi-speed file gives knee, friction, gas force and its rate within 2 %") {
+TEST_CASE("a multi-speed file gives knee, friction, gas force and its rate within 2 %" *
+          doctest::test_suite("long")) {
   const Truth truth;
   for (const double noise : {0.005, 0.01})
     for (const unsigned seed : {1u, 2u, 3u}) {

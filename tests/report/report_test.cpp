@@ -85,7 +85,7 @@ TEST_CASE("HTML report: one file that asks for nothing and cannot be broken by a
   CHECK(unpacked_size(at(data, "samples.0")) == 1500);
 }
 
-TEST_CASE("HTML report: long records are thinned, figures are not") {
+TEST_CASE("HTML report: long records are thinned, figures are not" * doctest::test_suite("long")) {
   const ExampleRanking example = example_ranking(20000);
   const std::string html = html_document(ranking_document(example.input()));
   CHECK(html.size() < 6e6);

@@ -209,7 +209,8 @@ TEST_CASE("a modified Bouc-Wen damper costs no short steps, and the tolerance is
   CHECK(apart < 1e-6 * 10 * greatest(fine, "body"));
 }
 
-TEST_CASE("loops of two dampers turn each at its time, and one that comes to rest costs nothing") {
+TEST_CASE("loops of two dampers turn each at its time, and one that comes to rest costs nothing" *
+          doctest::test_suite("long")) {
   const auto law = [](const char* name, std::vector<double> values) -> MountedDamper {
     return {.model = std::make_shared<LawModel>(LawModel::constant(find_law(name), values))};
   };

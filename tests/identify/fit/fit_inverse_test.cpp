@@ -35,7 +35,8 @@ double tracking_error(const ParameterSet& set, const InverseNetwork& network,
 
 }  // namespace
 
-TEST_CASE("fit inverse: records at several currents teach it, without a model") {
+TEST_CASE("fit inverse: records at several currents teach it, without a model" *
+          doctest::test_suite("long")) {
   const ParameterSet set = load_parameter_set("kwok2006");
   const Dataset data = records_at(set.model, {0, 0.4, 0.8, 1.2, 1.5});
   const LeaveOut leave_out = default_leave_out(data);

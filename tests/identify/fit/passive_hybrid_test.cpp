@@ -38,7 +38,8 @@ TEST_CASE("a law beside a network is fitted with the same bits on any number of 
     if (law.parameters[k].name != "f0") CHECK(one.parameters[k].value == law.parameters[k].value);
 }
 
-TEST_CASE("where the law is the truth the network has no share, where it is poor a large one") {
+TEST_CASE("where the law is the truth the network has no share, where it is poor a large one" *
+          doctest::test_suite("long")) {
   const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}, {0.007, 2}}).records;
   const FitReport truth =
       identify("tanh_kwok+passive_network", training, DriveUnit::Ampere, brief());

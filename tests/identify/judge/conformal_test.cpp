@@ -109,7 +109,8 @@ TEST_CASE("known noise: the band covers what it claims in every class, and follo
 
 TEST_CASE(
     "parts of unlike error: a new one is covered as claimed, where the plain quantile falls "
-    "short") {
+    "short" *
+    doctest::test_suite("long")) {
   // The scale of the error is log-normal, 0.7, from part to part; within a part errors are normal.
   // The mean coverage of new parts is known by the error function.
   for (const std::size_t count : {3, 5}) {

@@ -57,7 +57,8 @@ TEST_CASE("a trial's error is what rank gives the same network on the same folds
   }
 }
 
-TEST_CASE("the table is the same bit for bit with any number of threads and from kept results") {
+TEST_CASE("the table is the same bit for bit with any number of threads and from kept results" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   SearchOptions options = grid({"hidden=1:9", "activation=tanh,relu"});
   options.method = SearchMethod::Halving;

@@ -322,7 +322,8 @@ TEST_CASE("a force that slows its own motion lies on the range") {
   CHECK_CLOSE(bent.curves().share(0.1, 1150), 0.5, 1e-12, 0);
 }
 
-TEST_CASE("where the optimum goes beyond the range, nothing is proven") {
+TEST_CASE("where the optimum goes beyond the range, nothing is proven" *
+          doctest::test_suite("long")) {
   // Of a random car the certificate would have been 1.83 beside an optimum of 0.45.
   const GroundPointer ground = road();
   const auto bound = [&](double speed) {
