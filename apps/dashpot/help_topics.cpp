@@ -66,7 +66,7 @@ const std::vector<TopicRow>& topic_rows() {
       {"data",
        "How recordings are read",
        {},
-       {"--no-recognise", "--velocity-cutoff", "--verbose", "--units"}},
+       {"--no-recognise", "--velocity-cutoff", "--keep-inertia", "--verbose", "--units"}},
       {"laws",
        "The parameters of laws",
        {},
