@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dashpot/design/optimise.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -23,6 +24,27 @@ class SetModel final : public DesignModel {
     told.physics.off_force = off_force;
     told.physics.dynamic_range = force / off_force;
     return told;
+  }
+  bool is_fitted() const override { return true; }
+};
+
+/// Counts how often a time of response was looked for; there is none below a gap.
+class CountingModel final : public DesignModel {
+ public:
+  double least_gap = 0;
+  mutable int responses = 0;
+
+  std::string name() const override { return "counting"; }
+  Appraisal appraise(const DamperDescription& description,
+                     const DamperOperation& operation) const override {
+    Appraisal told{.physics = evaluate_physics(description, operation)};
+    if (description.gap < least_gap) told.physics.force = told.physics.off_force;
+    return told;
+  }
+  double force(const DamperDescription& description, const DamperOperation& at) const override {
+    ++responses;  // a straight line, on which the first look is the last
+    const DamperPhysics end = evaluate_physics(description, {1, at.velocity});
+    return end.off_force + at.current * (end.force - end.off_force);
   }
   bool is_fitted() const override { return true; }
 };
@@ -84,4 +106,22 @@ TEST_CASE("a figure that is not finite holds no bound, and is no goal's, and is 
       CHECK_FALSE(assessed(goal, model).holds());
     }
   }
+}
+
+TEST_CASE("a search for one goal looks at others where a place is better than any before") {
+  const DesignRequest both = problem_request("goals: [{minimise: gap}, {minimise: response_time}]"),
+                      alone = problem_request("goals: [{minimise: gap}]");
+  CountingModel model;
+  const OptimiseOptions options{.threads = 1};
+  const Optimum of_both = optimise(DesignProblem(both, model, 1), 0, options);
+  CHECK(model.responses > 0);
+  CHECK(model.responses < of_both.evaluations / 10);
+  CHECK(of_both.place == optimise(DesignProblem(alone, model, 1), 0, options).place);
+
+  // A place at which another goal has no figure is none.
+  model.least_gap = 1.5e-3;
+  const DesignProblem problem(both, model, 1);
+  const Optimum with_figures = optimise(problem, 0, options);
+  CHECK(with_figures.violation == 0);
+  CHECK_CLOSE(problem.damper_at(with_figures.place).gap, 1.5e-3, 1e-3, 0);
 }

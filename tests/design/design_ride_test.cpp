@@ -86,6 +86,32 @@ TEST_CASE("a constraint on comfort holds, or what could be reached is said; of a
   CHECK(told > 0);
 }
 
+TEST_CASE("a robust design for comfort by two models rides each damper made, by both" *
+          doctest::test_suite("long")) {
+  const DesignReport report = ridden_design(
+      "tolerances: {gap: 0.05 mm}\nrobust: {share: 0.9, samples: 4}\n"
+      "ride: {plant: savaresi_spelta, current: 0.5 A, duration: 0.3 s}\n"
+      "constraints: [{quantity: comfort, max: 10, by: both}]\ngoals: [{minimise: comfort}]",
+      {.second = "physics:moving_wall"});
+  REQUIRE(report.designs.size() == 1);
+  const Design& best = report.designs.front();
+
+  // What both models tell of the drawing, beside the worst of the dampers made, some of which have
+  // less of a gap and some more.
+  const auto comfort_by = [&](const char* name) {
+    const auto model = make_design_model(name, "");
+    return report.request.ride->comfort(law_of_design(best.damper, report.request, *model).file);
+  };
+  const double told = comfort_by("physics"), second = comfort_by("physics:moving_wall");
+  CHECK_CLOSE(best.first.front(), told, 1e-9, 0);
+  CHECK_CLOSE(best.second.front(), second, 1e-9, 0);
+  CHECK(told != second);
+  CHECK(best.assessment.goals.front() > told);
+  REQUIRE(best.assessment.constraints.size() == 2);
+  CHECK(best.assessment.constraints.front() == best.assessment.goals.front());
+  CHECK(best.assessment.constraints.back() > second);
+}
+
 TEST_CASE("a ride that cannot be is refused before the search") {
   const auto says = [](const std::string& rest, const std::string& words) {
     CAPTURE(rest);

@@ -214,6 +214,10 @@ std::size_t DesignProblem::asked_before(std::size_t k) const {
 }
 
 DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
+  return figures(damper, Wanted(question_of_.size(), 1));
+}
+
+DamperFigures DesignProblem::figures(const DamperDescription& damper, const Wanted& wanted) const {
   const auto model_of = [&](const Question& question) -> const DesignModel& {
     return question.by == ToldBy::Second ? *second_ : model_;
   };
@@ -226,13 +230,18 @@ DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
       return {std::vector<double>(question_of_.size(), NAN), refusal};
   }
 
-  // Every goal and constraint reads its figure from the answer to its question.
+  // Every goal and constraint that is wanted reads its figure from the answer to its question.
   DamperFigures figures;
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
+    if (!wanted[k]) {
+      figures.values.push_back(NAN);
+      continue;
+    }
     const Question& question = questions_[question_of_[k]];
     const DesignQuantity& quantity = quantity_of(k);
     const Appraisal& own = told[question_of_[k]];
-    if (const std::size_t same = asked_before(k); same < k && !quantity.has_band()) {
+    if (const std::size_t same = asked_before(k);
+        same < k && wanted[same] && !quantity.has_band()) {
       figures.values.push_back(figures.values[same]);  // a ride is long
       continue;
     }
@@ -274,6 +283,18 @@ double DesignProblem::figure_of_share(std::vector<double>& figures, bool at_leas
 }
 
 Assessment DesignProblem::assess(const DamperDescription& drawn) const {
+  return assess_wanted(drawn, Wanted(question_of_.size(), 1));
+}
+
+Assessment DesignProblem::assess_for(const DamperDescription& drawn,
+                                     const std::size_t* goal) const {
+  Wanted wanted(question_of_.size(), 1);
+  for (std::size_t k = 0; k < request_.goals.size(); ++k) wanted[k] = goal && *goal == k;
+  return assess_wanted(drawn, wanted);
+}
+
+Assessment DesignProblem::assess_wanted(const DamperDescription& drawn,
+                                        const Wanted& wanted) const {
   Assessment assessment;
   const std::size_t goals = request_.goals.size();
 
@@ -287,8 +308,9 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
   if (!is_possible(drawn)) return impossible();
 
   // The drawing's own figures, or, where a share of the dampers made counts, what this share
-  // reaches. A drawing that a model refuses is not made.
-  auto [all, refusal] = figures(drawn);
+  // reaches. A drawing that a model refuses is not made, and of others nothing else counts.
+  auto [all, refusal] =
+      figures(drawn, made_with_.empty() ? wanted : Wanted(question_of_.size(), 0));
   assessment.refusal = refusal;
   assessment.known = refusal == Refusal::None;
   if (!made_with_.empty() && assessment.known) {
@@ -296,7 +318,7 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
     for (const std::vector<double>& shares : made_with_) {
       const DamperDescription damper = made(drawn, shares);
       if (!is_possible(damper)) return impossible();
-      const std::vector<double> of_damper = figures(damper).values;
+      const std::vector<double> of_damper = figures(damper, wanted).values;
       for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
     }
     for (std::size_t k = 0; k < all.size(); ++k)
@@ -312,8 +334,8 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
   }
 
   // A goal that is not finite is as bad as a constraint whose figure is not known.
-  for (const double goal : assessment.goals)
-    if (!std::isfinite(goal)) {
+  for (std::size_t k = 0; k < goals; ++k)
+    if (assessment.refusal != Refusal::None || (wanted[k] && !std::isfinite(all[k]))) {
       assessment.known = false;
       assessment.violation += kImpossible;
     }

@@ -50,6 +50,9 @@ class DesignProblem {
   std::size_t level_at(std::size_t k, double place) const;
 
   Assessment assess(const DamperDescription& drawn) const;
+  /// The same with one goal alone, or null for none. The others, of which some take long to
+  /// compute, are left out: they may be anything.
+  Assessment assess_for(const DamperDescription& drawn, const std::size_t* goal) const;
   /// The damper with its fields off by these shares of their tolerances.
   DamperDescription made(const DamperDescription& drawn, std::span<const double> shares) const;
   /// Each figure by the model that is asked for it, at the pessimistic end of its band; refused
@@ -66,6 +69,9 @@ class DesignProblem {
   bool is_wanted_large(std::size_t k) const;
   std::size_t asked_before(std::size_t k) const;
   void follow(DamperDescription& damper) const;
+  using Wanted = std::vector<char>;  // of every goal, then of every constraint
+  Assessment assess_wanted(const DamperDescription& drawn, const Wanted& wanted) const;
+  DamperFigures figures(const DamperDescription& damper, const Wanted& wanted) const;
   double figure_of_share(std::vector<double>& figures, bool at_least) const;
 
   struct Question {

@@ -35,16 +35,14 @@ class Search {
   Seen look(std::span<const double> place, bool relaxed = false) {
     if (options_.monitor) options_.monitor->check();
     ++best_.evaluations;
-    const Assessment assessment = problem_.assess(problem_.damper_at(place, relaxed));
-    Seen seen;
-    for (std::size_t k = 0; k < assessment.slack.size(); ++k)
-      if (options_.counted.empty() || options_.counted[k])
-        seen.slack.push_back(assessment.slack[k] - kMargin);
-    if (!assessment.possible || !assessment.known)  // what cannot be drawn is further off
-      seen.slack.push_back(assessment.possible ? -1 : -2);
-    for (const double slack : seen.slack) seen.violation += std::max(0., -slack);
-    seen.value = goal_ ? value_of(assessment) : 0;
-    if (!relaxed) keep(place, seen);
+    // Goals that this search does not follow are looked at where a place is better than any before,
+    // which must have them.
+    const DamperDescription damper = problem_.damper_at(place, relaxed);
+    Seen seen = seen_of(problem_.assess_for(damper, goal_));
+    if (relaxed) return seen;
+    if (problem_.request().goals.size() > (goal_ ? 1 : 0) && is_better(seen))
+      seen = seen_of(problem_.assess(damper));
+    keep(place, seen);
     return seen;
   }
   /// A place that holds the constraints beats any that does not.
@@ -56,14 +54,26 @@ class Search {
   Optimum& best() { return best_; }
 
  private:
+  Seen seen_of(const Assessment& assessment) const {
+    Seen seen;
+    for (std::size_t k = 0; k < assessment.slack.size(); ++k)
+      if (options_.counted.empty() || options_.counted[k])
+        seen.slack.push_back(assessment.slack[k] - kMargin);
+    if (!assessment.possible || !assessment.known)  // what cannot be drawn is further off
+      seen.slack.push_back(assessment.possible ? -1 : -2);
+    for (const double slack : seen.slack) seen.violation += std::max(0., -slack);
+    seen.value = goal_ ? value_of(assessment) : 0;
+    return seen;
+  }
+  bool is_better(const Seen& seen) const { return best_.place.empty() || rank(seen) < best_rank_; }
   double value_of(const Assessment& assessment) const {
     if (!assessment.possible || !assessment.known) return kFails;
     const double figure = assessment.goals[*goal_];
     return problem_.request().goals[*goal_].maximise ? -figure : figure;
   }
   void keep(std::span<const double> place, const Seen& seen) {
-    if (const double own = rank(seen); best_.place.empty() || own < best_rank_) {
-      best_rank_ = own;
+    if (is_better(seen)) {
+      best_rank_ = rank(seen);
       best_.place.assign(place.begin(), place.end());
       best_.violation = seen.violation;
       best_.value = seen.value;

@@ -67,6 +67,10 @@ FamilyModel sprung_physics(double stiffness, double strength, double memory) {
           example_member()};
 }
 
+const FamilyPhysics& physics_of(const FamilyModel& model) {
+  return dynamic_cast<const PhysicsFamily&>(*model.family().force).physics();
+}
+
 }  // namespace
 
 TEST_CASE("a settled sine has the force of many cycles, however long they take to forget") {
@@ -88,6 +92,38 @@ TEST_CASE("a settled sine has the force of many cycles, however long they take t
                     kOtherSteps * std::max(-low, high));
       }
     }
+}
+
+TEST_CASE("a settled sine is to 0.1 % what the same steps come to, whichever spring takes long") {
+  // The seal's spring takes long where its friction is much and gives far, the flow's where it is
+  // weak: each by itself, both and neither.
+  constexpr int kSteps = 40;
+  constexpr double kPart = 2 * kHalfTurn / kSteps;
+  for (const double seal_give : {-3., 2.})
+    for (const double stiffness : {-3., 3.})
+      for (const double memory : {0., 0.4, 1.}) {
+        FamilyPhysics physics = physics_of(sprung_physics(stiffness, 1, memory));
+        physics.numbers[kSealForce] = 0;
+        physics.numbers[kSealGive] = seal_give;
+        const FamilyModel model(
+            std::make_shared<Family>(family_of(std::make_shared<PhysicsFamily>(physics))),
+            example_member());
+        for (const SteadySine& sine : {SteadySine{0.02, 0.24, 1}, {0.02, 0.14, 0}, {5e-3, 2, 1}}) {
+          CAPTURE(seal_give);
+          CAPTURE(stiffness);
+          CAPTURE(memory);
+          CAPTURE(sine.rate);
+          std::vector<double> state(model.state_size());
+          double largest = 0;
+          for (int k = 0; k < 3000 * kSteps; ++k) {
+            model.advance(sine.at(k % kSteps * kPart), sine.at((k + 1) % kSteps * kPart),
+                          kPart / sine.rate, state);
+            if (k > 2999 * kSteps) largest = std::max(largest, std::abs(model.force({}, state)));
+          }
+          CHECK_CLOSE(force_settled(model, sine, 0), model.force(sine.at(0), state), 0,
+                      1e-3 * largest);
+        }
+      }
 }
 
 TEST_CASE("a weak spring before a strong resistance: where it began is not told for its force") {

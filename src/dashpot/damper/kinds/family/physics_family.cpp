@@ -87,34 +87,63 @@ constexpr ReferenceField kReferences[] = {{"piston_area", &FamilyPhysics::Refere
                                           {"speed", &FamilyPhysics::Reference::speed},
                                           {"stroke", &FamilyPhysics::Reference::stroke}};
 
-/// A damper at a constant current in a sine: one element for all steps.
-class SineRun {
+enum Spring : std::size_t { kSeal, kFlow, kSprings };
+
+/// One spring of a damper at a constant current in a sine, as physics_advance() steps it. Neither
+/// sees the other: each runs for as long as it takes itself, and a cycle of the seal costs a part
+/// of the flow's.
+class SpringInSine {
  public:
-  /// At most so much is left, by the end, of a change of either spring's force at the beginning.
-  using Kept = std::array<double, 2>;
-
-  SineRun(const FamilyPhysics::Element& element, const SteadySine& sine)
-      : element_(element), sine_(sine) {}
-
-  Kept through(double from, double to, std::span<double> state) const {
-    constexpr double kOfCycle = 40, kRounding = 1e-9;
-    const double count = std::ceil((to - from) / (2 * std::numbers::pi) * kOfCycle - kRounding);
-    const double phase = (to - from) / count, step = phase / sine_.rate;
-    std::array<double, 2> travels{};
-    double now = sine_.at(from).velocity;
-    for (int k = 1; k <= count; ++k) {
-      const double next = sine_.at(from + k * phase).velocity;
-      const std::array<double, 2> before{state[0], state[1]};
-      physics_advance(&element_, now, next, step, state.data());
-      const double way = 0.5 * (now + next) * step;
-      travels[0] += travel(element_.seal_stiffness * way, before[0], state[0]);
-      travels[1] += travel(element_.stiffness * way, before[1], state[1]);
-      now = next;
-    }
-    return {std::exp(-travels[0]), std::exp(-travels[1])};
+  SpringInSine(const FamilyPhysics::Element& element, const SteadySine& sine, Spring spring)
+      : element_(element),
+        stiffness_(spring == kSeal ? element.seal_stiffness : element.stiffness),
+        sine_(sine),
+        spring_(spring) {
+    if (spring == kSeal)
+      element_.yielding = element_.viscous = element_.passive = 0;
+    else
+      element_.seal = 0;
   }
 
+  /// At rest at the turn before a phase, from where it runs to there. Whether it has forgotten it.
+  bool begin(double phase) {
+    constexpr double kForgotten = 1e-4;
+    const double turn = kPi * (std::floor(phase / kPi - 0.5) + 0.5);
+    state_ = {0, 0, sine_.remembered_square(turn, element_.time)};
+    phase_ = phase;
+    return through(turn, phase, state_) < kForgotten;
+  }
+  /// A cycle, and where those after it could move the force by more than `little`, N, the one that
+  /// returns.
+  void settle(double little) {
+    const std::array<double, kPhysicsStates> before = state_;
+    const double kept = cycle(state_);
+    if (kept * std::abs(state_[spring_] - before[spring_]) / (1 - kept) <= little) return;
+    find_cycle(state_, [&](std::span<double> cycled) { cycle(cycled); }, before);
+  }
+  double force() const { return state_[spring_]; }
+  double remembered() const { return state_[2]; }
+
  private:
+  static constexpr double kPi = std::numbers::pi;
+
+  double cycle(std::span<double> state) const { return through(phase_, phase_ + 2 * kPi, state); }
+
+  /// At most so much is left, by the end, of a change of the force at the beginning.
+  double through(double from, double to, std::span<double> state) const {
+    constexpr double kOfCycle = 40, kRounding = 1e-9;
+    const double count = std::ceil((to - from) / (2 * kPi) * kOfCycle - kRounding);
+    const double phase = (to - from) / count, step = phase / sine_.rate;
+    double travelled = 0, now = sine_.at(from).velocity;
+    for (int k = 1; k <= count; ++k) {
+      const double next = sine_.at(from + k * phase).velocity, before = state[spring_];
+      physics_advance(&element_, now, next, step, state.data());
+      travelled += travel(stiffness_ * 0.5 * (now + next) * step, before, state[spring_]);
+      now = next;
+    }
+    return std::exp(-travelled);
+  }
+
   /// What the resistance was moved by in a step, in ways over which the spring gives by its force.
   /// A spring's force f before a resistance that takes the speed u forgets by K df/du or more, and
   /// df/du is f / u at most, since a resistance falls with the speed. Nothing is counted where the
@@ -125,8 +154,11 @@ class SineRun {
     return before * after > 0 && ways > 0 ? ways : 0;
   }
 
-  const FamilyPhysics::Element& element_;
+  FamilyPhysics::Element element_;
+  double stiffness_, phase_ = 0;
   const SteadySine& sine_;
+  Spring spring_;
+  std::array<double, kPhysicsStates> state_{};
 };
 
 }  // namespace
@@ -164,25 +196,19 @@ void PhysicsFamily::advance(const FamilyMember& member, const DamperInput& from,
 
 void PhysicsFamily::settle(const FamilyMember& member, const SteadySine& sine, double phase,
                            std::span<double> state) const {
+  constexpr double kSettled = 5e-4;  // of the whole force, by each
   const FamilyPhysics::Element element = physics_.element(member, sine.current);
-  const SineRun run(element, sine);
+  std::array<SpringInSine, kSprings> springs{SpringInSine(element, sine, kSeal),
+                                             SpringInSine(element, sine, kFlow)};
+  std::array<bool, kSprings> forgotten{};
+  for (std::size_t k = 0; k < kSprings; ++k) forgotten[k] = springs[k].begin(phase);
 
-  // Springs at rest at the turn before, and the remembered speed as it has long been.
-  constexpr double kPi = std::numbers::pi, kForgotten = 1e-4, kSettled = 1e-3;
-  const double turn = kPi * (std::floor(phase / kPi - 0.5) + 0.5);
-  state[0] = state[1] = 0;
-  state[2] = sine.remembered_square(turn, element.time);
-  SineRun::Kept kept = run.through(turn, phase, state);
-  if (std::ranges::max(kept) < kForgotten) return;
-
-  // A cycle, and what those after it could move; only where that is much, the one that returns.
-  const std::array<double, 2> before{state[0], state[1]};
-  kept = run.through(phase, phase + 2 * kPi, state);
-  double open = 0;
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    open += kept[k] * std::abs(state[k] - before[k]) / (1 - kept[k]);
-  if (open <= kSettled * std::abs(state[0] + state[1])) return;
-  find_cycle(state, [&](std::span<double> cycled) { run.through(phase, phase + 2 * kPi, cycled); });
+  for (std::size_t k = 0; k < kSprings; ++k) {
+    const double whole = std::abs(springs[kSeal].force() + springs[kFlow].force());
+    if (!forgotten[k]) springs[k].settle(kSettled * whole);
+    state[k] = springs[k].force();
+  }
+  state[2] = springs[kFlow].remembered();
 }
 
 double PhysicsFamily::force(const FamilyMember&, const DamperInput&,

@@ -16,13 +16,18 @@ double SteadySine::remembered_square(double phase, double time) const noexcept {
          (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
 }
 
-void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle) {
+void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle,
+                std::span<const double> begun) {
   constexpr int kMostCycles = 12;
   constexpr double kSettled = 1e-3, kStill = 1e-9, kMostKept = 1 - 1e-6;
   std::vector<double> from(state.begin(), state.end()), to(from), last_from, last_to;
   for (int k = 0; k < kMostCycles; ++k) {
-    from.assign(state.begin(), state.end());
-    cycle(state);
+    const bool is_run = k == 0 && !begun.empty();
+    if (is_run)
+      from.assign(begun.begin(), begun.end());
+    else
+      from.assign(state.begin(), state.end());
+    if (!is_run) cycle(state);
     to.assign(state.begin(), state.end());
 
     // What a cycle keeps of a change in where it began; and from there what comes of many.

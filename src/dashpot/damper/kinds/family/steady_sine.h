@@ -17,7 +17,9 @@ struct SteadySine {
 
 /// Moves a state to one that a cycle brings back. A cycle may take long to forget where it began,
 /// so each number goes where the line through its last two cycles returns: at once where the number
-/// sees only itself and the motion, and linearly; else after some cycles more.
-void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle);
+/// sees only itself and the motion, and linearly; else after some cycles more. `begun`: the state a
+/// cycle before, where the first has been run already.
+void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle,
+                std::span<const double> begun = {});
 
 }  // namespace dashpot
