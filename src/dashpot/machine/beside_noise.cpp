@@ -139,9 +139,10 @@ std::vector<double> column_of(const MoreForce& more, const LeastSquaresProblem& 
                               const std::vector<InPlantTrace>& traces,
                               const std::vector<RecordingNoise>& noise) {
   std::vector<double> column(problem.residuals);
-  for (std::size_t c = 0; c < noise.size(); ++c) {
-    const std::span<double> rows =
-        std::span(column).subspan(problem.parts[c], noise[c].lines() * noise[c].rows_per_line());
+  for (std::size_t c = 0, at = 0; c < noise.size(); ++c) {
+    const std::size_t count = noise[c].lines() * noise[c].rows_per_line();
+    const std::span<double> rows = std::span(column).subspan(at, count);
+    at += count;
     noise[c].put_force(std::span(traces[c].*more.follows).subspan(cases.all[c].first), rows);
     for (std::size_t i = 0; i < rows.size(); ++i)
       rows[i] /= residuals.scale_of(i % noise[c].rows_per_line() / 2);
@@ -163,20 +164,21 @@ double own_share(const std::vector<double>& column, const EndOfSearch& end,
 
 /// What pieces of time tell, in which what was left is known: `length` samples each or little more
 /// or less, two of a recording at least.
-std::vector<BlockOfData> pieces_of(const LeastSquaresProblem& problem, const EndOfSearch& end,
-                                   const std::vector<RecordingNoise>& noise, double length) {
+std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<RecordingNoise>& noise,
+                                   double length) {
   const std::size_t n = end.columns.size();
   std::vector<BlockOfData> pieces;
-  for (std::size_t c = 0; c < noise.size(); ++c) {
+  for (std::size_t c = 0, at = 0; c < noise.size(); ++c) {
     // Columns and residuals as samples.
     const std::size_t count = noise[c].lines() * noise[c].rows_per_line();
     const auto samples_of = [&](const std::vector<double>& rows) {
-      return noise[c].samples_of(std::span(rows).subspan(problem.parts[c], count));
+      return noise[c].samples_of(std::span(rows).subspan(at, count));
     };
     std::vector<std::vector<std::vector<double>>> columns(n);
     for (std::size_t k = 0; k < n; ++k)
       if (!end.columns[k].empty()) columns[k] = samples_of(end.columns[k]);
     const std::vector<std::vector<double>> left = samples_of(end.residuals);
+    at += count;
 
     // Their products in each piece.
     const auto samples = static_cast<double>(noise[c].samples());
@@ -215,7 +217,7 @@ void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& s
   const std::vector<double> ones(solved.part_matrices.size(), 1.0);
   fit.spread = covariance(solved.part_matrices, ones, n);
   EndOfSearch end = end_of(problem, solved);
-  fit.alone.emplace(pieces_of(problem, end, fit.noise, samples / kPieces), n);
+  fit.alone.emplace(pieces_of(end, fit.noise, samples / kPieces), n);
 
   // Beside what the law cannot make.
   const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x);
@@ -233,7 +235,7 @@ void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& s
   fit.with_more.reset();
   if (asked.empty()) return;
   std::ranges::move(columns, std::back_inserter(end.columns));
-  Jackknife with_more(pieces_of(problem, end, fit.noise, samples / kPieces), n + asked.size());
+  Jackknife with_more(pieces_of(end, fit.noise, samples / kPieces), n + asked.size());
   const double one[] = {1};
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const double value = with_more.step()[n + k];

@@ -379,10 +379,12 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
   LeastSquaresProblem problem;
   problem.parts.clear();
 
-  // A part is a sensor of a recording, or all of its frequencies.
+  // A part is a sensor of a recording, or some neighbouring frequencies of it.
+  constexpr std::size_t kLines = 20;
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const std::size_t count = residuals_of(c, samples);
-    const std::size_t part = noise_ ? count : count / sensors_.size();
+    const std::size_t part =
+        noise_ ? kLines * (*noise_)[c].rows_per_line() : count / sensors_.size();
     for (std::size_t first = 0; first < count; first += part)
       problem.parts.push_back(problem.residuals + first);
     problem.residuals += count;
