@@ -1,8 +1,11 @@
 #include "dashpot/machine/beside_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <optional>
 
 #include "dashpot/base/text.h"
 #include "dashpot/machine/between_samples.h"
@@ -122,36 +125,129 @@ EndOfSearch end_of(const LeastSquaresProblem& problem, const LeastSquaresReport&
   return end;
 }
 
-/// The inverse of the information between the scores' own products, over some neighbouring
-/// frequencies each: how large what is left truly is where each unknown shows.
-std::vector<double> spread_by_scores(const LeastSquaresProblem& problem, const EndOfSearch& end,
-                                     const std::vector<double>& inverse, std::size_t n) {
-  std::vector<double> products(n * n);
-  for (std::size_t part = 0; part < problem.parts.size(); ++part) {
-    const std::size_t first = problem.parts[part], behind = part + 1 < problem.parts.size()
-                                                                ? problem.parts[part + 1]
-                                                                : problem.residuals;
-    std::vector<double> score(n);
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t i = first; i < behind && !end.columns[k].empty(); ++i)
-        score[k] += end.columns[k][i] * end.residuals[i];
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t m = 0; m < n; ++m) products[k * n + m] += score[k] * score[m];
+/// What the damper may show beside its law: a force that follows its deflection, or its velocity.
+struct MoreForce {
+  const char *name, *unit;
+  std::vector<double> InPlantTrace::* follows;
+};
+constexpr std::array kMore = {MoreForce{"spring", "N/m", &InPlantTrace::deflection},
+                              MoreForce{"dashpot", "N*s/m", &InPlantTrace::velocity}};
+
+/// The sensitivity to one N/m or N*s/m of it, as rows of the residuals.
+std::vector<double> column_of(const MoreForce& more, const LeastSquaresProblem& problem,
+                              const PlantCases& cases, const PlantResiduals& residuals,
+                              const std::vector<InPlantTrace>& traces,
+                              const std::vector<RecordingNoise>& noise) {
+  std::vector<double> column(problem.residuals);
+  for (std::size_t c = 0, at = 0; c < noise.size(); ++c) {
+    const std::size_t count = noise[c].lines() * noise[c].rows_per_line();
+    const std::span<double> rows = std::span(column).subspan(at, count);
+    at += count;
+    noise[c].put_force(std::span(traces[c].*more.follows).subspan(cases.all[c].first), rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] /= residuals.scale_of(i % noise[c].rows_per_line() / 2);
   }
-  const auto parts = static_cast<double>(problem.parts.size());
-  const double freedom = std::max(1.0, parts - static_cast<double>(n)) / parts;
-  for (double& value : products) value /= freedom;
-  return product(product(inverse, products, n), inverse, n);
+  return column;
 }
 
-/// The covariance of the unknowns at the end of a search beside the noise.
-Covariance spread_beside_noise(const LeastSquaresProblem& problem,
-                               const LeastSquaresReport& solved) {
+/// The share of a column that no other can make, where `spread` is the inverse of their products.
+double own_share(const std::vector<double>& column, const EndOfSearch& end,
+                 const Covariance& spread) {
+  const auto along = [&](const std::vector<double>& other) {
+    return std::inner_product(other.begin(), other.end(), column.begin(), 0.0);
+  };
+  std::vector<double> products;
+  for (const std::vector<double>& other : end.columns) products.push_back(along(other));
+  const double length = along(column);
+  return length > 0 ? 1 - spread.variance(0, products) / length : 0;
+}
+
+/// What pieces of time tell, in which what was left is known: `length` samples each or little more
+/// or less, two of a recording at least.
+std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<RecordingNoise>& noise,
+                                   double length) {
+  const std::size_t n = end.columns.size();
+  std::vector<BlockOfData> pieces;
+  for (std::size_t c = 0, at = 0; c < noise.size(); ++c) {
+    // Columns and residuals as samples.
+    const std::size_t count = noise[c].lines() * noise[c].rows_per_line();
+    const auto samples_of = [&](const std::vector<double>& rows) {
+      return noise[c].samples_of(std::span(rows).subspan(at, count));
+    };
+    std::vector<std::vector<std::vector<double>>> columns(n);
+    for (std::size_t k = 0; k < n; ++k)
+      if (!end.columns[k].empty()) columns[k] = samples_of(end.columns[k]);
+    const std::vector<std::vector<double>> left = samples_of(end.residuals);
+    at += count;
+
+    // Their products in each piece.
+    const auto samples = static_cast<double>(noise[c].samples());
+    const auto own = static_cast<std::size_t>(std::max(2.0, std::round(samples / length)));
+    for (std::size_t piece = 0; piece < own; ++piece) {
+      const std::size_t first = piece * noise[c].samples() / own,
+                        behind = (piece + 1) * noise[c].samples() / own;
+      const auto along = [&](const auto& a, const auto& b) {
+        double sum = 0;
+        for (std::size_t s = 0; s < a.size() && s < b.size(); ++s)
+          for (std::size_t i = first; i < behind; ++i) sum += a[s][i] * b[s][i];
+        return sum;
+      };
+      BlockOfData one{std::vector<double>(n * n), std::vector<double>(n)};
+      for (std::size_t k = 0; k < n; ++k) {
+        one.score[k] = along(columns[k], left);
+        for (std::size_t m = 0; m <= k; ++m)
+          one.information[k * n + m] = one.information[m * n + k] = along(columns[k], columns[m]);
+      }
+      pieces.push_back(std::move(one));
+    }
+  }
+  return pieces;
+}
+
+/// How certain the unknowns are at the end of a search beside the noise, and whether the damper
+/// shows more than its law has.
+void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& solved,
+                 const PlantCases& cases, const PlantResiduals& residuals, NoisyFit& fit) {
+  constexpr double kPieces = 24, kOwnShare = 0.01, kChance = 0.01;
   const std::size_t n = solved.x.size();
+  double samples = 0;
+  for (const RecordingNoise& one : fit.noise) samples += static_cast<double>(one.samples());
+
+  // Of the unknowns alone.
   const std::vector<double> ones(solved.part_matrices.size(), 1.0);
-  Covariance spread = covariance(solved.part_matrices, ones, n);
-  spread.matrix = spread_by_scores(problem, end_of(problem, solved), spread.matrix, n);
-  return spread;
+  fit.spread = covariance(solved.part_matrices, ones, n);
+  EndOfSearch end = end_of(problem, solved);
+  fit.alone.emplace(pieces_of(end, fit.noise, samples / kPieces), n);
+
+  // Beside what the law cannot make.
+  const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x);
+  std::vector<const MoreForce*> asked;
+  std::vector<std::vector<double>> columns;
+  for (const MoreForce& more : kMore) {
+    columns.push_back(column_of(more, problem, cases, residuals, traces, fit.noise));
+    if (own_share(columns.back(), end, fit.spread) > kOwnShare)
+      asked.push_back(&more);
+    else
+      columns.pop_back();
+  }
+  fit.spread.matrix = fit.alone->covariance();
+  fit.more.clear();
+  fit.with_more.reset();
+  if (asked.empty()) return;
+  std::ranges::move(columns, std::back_inserter(end.columns));
+  Jackknife with_more(pieces_of(end, fit.noise, samples / kPieces), n + asked.size());
+  const double one[] = {1};
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    const double value = with_more.step()[n + k];
+    if (std::abs(value) < with_more.half(n + k, one, kChance / 2)) continue;
+    const double half = with_more.half(n + k, one);
+    fit.more.push_back(
+        std::string("beside this law the damper shows a ") + asked[k]->name + " of " +
+        format_number(value, 3) + " " + asked[k]->unit + " (" + format_number(value - half, 3) +
+        " ... " + format_number(value + half, 3) +
+        "): intervals reach to where the numbers go with it; try a law that makes it");
+  }
+  if (!fit.more.empty()) fit.with_more.emplace(std::move(with_more));
 }
 
 }  // namespace
@@ -217,9 +313,10 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
       }
       cases = std::move(without);
     }
-    if (has_enough_steps || turn + 1 == kTurns) fit.spread = spread_beside_noise(problem, solved);
+    if (has_enough_steps || turn + 1 == kTurns) tell_spread(problem, solved, cases, residuals, fit);
     stays = has_enough_steps && way < kStays;
   }
+  report.warnings.insert(report.warnings.end(), fit.more.begin(), fit.more.end());
   if (fit.noise.empty())
     report.warnings.push_back(
         "the noise of the inputs could not be told: the numbers of the plant may lean by it, and "
@@ -230,6 +327,23 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
         "on the intervals");
   solved.iterations = iterations;
   return solved;
+}
+
+Reach reach_of(const NoisyFit& fit) {
+  if (!fit.alone) return {};
+  return [&fit](std::size_t first, std::span<const double> weights) {
+    const double half = fit.alone->half(first, weights);
+    double below = half, above = half;
+    if (fit.with_more) {
+      const double other = fit.with_more->half(first, weights);
+      double way = 0;
+      for (std::size_t k = 0; k < weights.size(); ++k)
+        way += weights[k] * fit.with_more->step()[first + k];
+      below = std::max(below, other - way);
+      above = std::max(above, other + way);
+    }
+    return std::pair(below, above);
+  };
 }
 
 void add_noise(const InPlantSetup& setup, const NoiseFound& found, InPlantReport& report) {

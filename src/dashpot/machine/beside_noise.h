@@ -1,9 +1,12 @@
 #pragma once
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/input_noise.h"
 #include "dashpot/machine/plant_residuals.h"
+#include "dashpot/numerics/jackknife.h"
 
 namespace dashpot {
 
@@ -17,7 +20,11 @@ struct NoisyFit {
   PlantCases cases;                   ///< with the inputs as they were measured
   std::vector<RecordingNoise> noise;  ///< by which the residuals are weighed; empty: no second part
   NoiseFound found;
-  Covariance spread;  ///< of the unknowns
+  Covariance spread;               ///< of the unknowns
+  std::optional<Jackknife> alone;  ///< what it comes from
+  /// Behind the unknowns what the damper shows beside the law, where that is more than chance.
+  std::optional<Jackknife> with_more;
+  std::vector<std::string> more;  ///< the same in words
 };
 
 /// Noise and unknowns in turn, from where the first fit ended, until these stay; where the
@@ -29,6 +36,10 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
                                       PlantCases& cases, PlantResiduals& residuals,
                                       LeastSquaresReport solved, NoisyFit& fit,
                                       InPlantReport& report);
+
+/// The intervals of a fit beside noise, by Student's t; where the damper shows more than the law
+/// has, they reach to where the numbers would go with that. Empty where there was no second part.
+Reach reach_of(const NoisyFit& fit);
 
 /// What was found of the noise, with its intervals, as nuisances.
 void add_noise(const InPlantSetup& setup, const NoiseFound& found, InPlantReport& report);

@@ -340,7 +340,13 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
       solve_in_enough_steps(setup, recordings, options, cases, residuals, x, report);
 
   // Once more beside the noise of inputs and sensors.
-  NoisyFit beside{.cases = cases, .noise = {}, .found = {}, .spread = {}};
+  NoisyFit beside{.cases = cases,
+                  .noise = {},
+                  .found = {},
+                  .spread = {},
+                  .alone = {},
+                  .with_more = {},
+                  .more = {}};
   const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
   if (is_finite && has_noisy_inputs(setup)) {
     solved = solve_beside_noise(setup, recordings, options, start.scale, cases, residuals, solved,
@@ -364,7 +370,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
 
   // Intervals: correlated residuals count as one, and sensors differ.
   const Covariance spread = beside.spread.n > 0 ? beside.spread : residuals.covariance_at(solved);
-  add_parameters(residuals, solved.x, spread, report);
+  add_parameters(residuals, solved.x, spread, report, reach_of(beside));
   if (!beside.noise.empty()) add_noise(setup, beside.found, report);
   add_warnings(residuals, spread, report);
   report.advice.profiles =

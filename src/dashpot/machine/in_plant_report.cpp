@@ -92,11 +92,13 @@ Knowable knowable_of(const InPlantUnknowns& unknowns,
 }
 
 void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
-                    const Covariance& spread, InPlantReport& report) {
+                    const Covariance& spread, InPlantReport& report, const Reach& reach) {
   const std::vector<bool> weak = weak_ones(spread, x.size());
-  const auto interval = [&](FittedParameter& p, double deviation) {
-    p.low = p.value - kNormal95 * deviation;
-    p.high = p.value + kNormal95 * deviation;
+  const auto interval = [&](FittedParameter& p, std::size_t of, std::span<const double> weights) {
+    const double half = kNormal95 * std::sqrt(spread.variance(of, weights));
+    const auto [below, above] = reach ? reach(of, weights) : std::pair(half, half);
+    p.low = p.value - below;
+    p.high = p.value + above;
   };
 
   // The plant's numbers, then the nuisances: both are single unknowns in a size of their own.
@@ -104,7 +106,7 @@ void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
     if (unknowns.is_of_law(k)) continue;
     FittedParameter p = unknowns.described(k, x);
     const double size[] = {unknowns.size_at(k, x)};
-    interval(p, std::sqrt(spread.variance(k, size)));
+    interval(p, k, size);
     p.weak = weak[k];
     (k < unknowns.plant_unknowns() ? report.plant : report.nuisances).push_back(std::move(p));
   }
@@ -115,7 +117,7 @@ void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
     FittedParameter p{.name = c.name, .unit = c.unit, .meaning = c.meaning, .value = c.value};
     p.fixed = c.weights.empty();
     p.at_bound = c.at_bound;
-    interval(p, p.fixed ? 0 : std::sqrt(spread.variance(first + c.first, c.weights)));
+    interval(p, first + c.first, c.weights);
     for (std::size_t k = 0; k < c.weights.size(); ++k) p.weak = p.weak || weak[first + c.first + k];
     report.damper.push_back(std::move(p));
   }

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dashpot/damper_model.h"
@@ -92,9 +94,14 @@ std::string name_in_law(const InPlantUnknowns& unknowns, std::size_t first, std:
 Knowable knowable_of(const InPlantUnknowns& unknowns,
                      const std::vector<std::vector<double>>& part_matrices, std::size_t n);
 
-/// The parameters at x with their 95 % intervals, into the report.
+/// How far the truth may lie below and above sum weights[k] x[first + k], 95 %.
+using Reach =
+    std::function<std::pair<double, double>(std::size_t first, std::span<const double> weights)>;
+
+/// The parameters at x with their 95 % intervals, into the report: as `reach` has them, or those of
+/// normal errors of this spread.
 void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
-                    const Covariance& spread, InPlantReport& report);
+                    const Covariance& spread, InPlantReport& report, const Reach& reach = {});
 /// Bounds that were met, and what cannot be told.
 void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread, InPlantReport& report);
 

@@ -122,6 +122,32 @@ void RecordingNoise::put_lines(std::span<const double> beyond, std::size_t lengt
   }
 }
 
+std::vector<std::vector<double>> RecordingNoise::samples_of(std::span<const double> rows) const {
+  const double scale = std::sqrt(static_cast<double>(samples_)) / std::numbers::sqrt2;
+  std::vector<std::vector<double>> samples;
+  for (std::size_t s = 0; s < sensors_; ++s) {
+    std::vector<Complex> lines(samples_ / 2 + 1);
+    for (std::size_t l = 0; l < lines_; ++l) {
+      const double* row = &rows[l * rows_per_line() + 2 * s];
+      lines[l + 1] = scale * Complex(row[0], row[1]);
+    }
+    samples.push_back(from_half_spectrum(lines, samples_));
+  }
+  return samples;
+}
+
+void RecordingNoise::put_force(std::span<const double> force, std::span<double> rows) const {
+  const double scale = std::numbers::sqrt2 / std::sqrt(static_cast<double>(samples_));
+  const std::vector<Complex> lines = half_spectrum(force.first(samples_));
+  for (std::size_t l = 0; l < lines_; ++l)
+    for (std::size_t s = 0; s < sensors_; ++s) {
+      const Complex shows =
+          scale * gains_[(l * (inputs_ + 1) + inputs_) * sensors_ + s] * lines[l + 1];
+      rows[l * rows_per_line() + 2 * s] = shows.real();
+      rows[l * rows_per_line() + 2 * s + 1] = shows.imag();
+    }
+}
+
 std::vector<std::vector<double>> RecordingNoise::likely_inputs() const {
   std::vector<std::vector<Complex>> lines(inputs_, std::vector<Complex>(samples_ / 2 + 1));
   const double scale = std::sqrt(static_cast<double>(samples_));

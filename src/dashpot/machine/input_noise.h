@@ -53,6 +53,11 @@ class RecordingNoise {
   /// E of at least so many samples, sensor by sensor, each `length` long, as real numbers, line by
   /// line; white samples keep their variance.
   void put_lines(std::span<const double> beyond, std::size_t length, std::span<double> rows) const;
+  /// The samples of each sensor of which rows say all up to the last line, and nothing above it;
+  /// their products add up to those of the rows.
+  std::vector<std::vector<double>> samples_of(std::span<const double> rows) const;
+  /// What the sensors show of a force of the damper's, as such rows.
+  void put_force(std::span<const double> force, std::span<double> rows) const;
   /// The most likely noise of each input's sensor.
   std::vector<std::vector<double>> likely_inputs() const;
 
