@@ -242,3 +242,16 @@ TEST_CASE(
   CHECK_FALSE(told(with_spring));
   CHECK_CLOSE(named_in(with_spring.plant, "sprung_mass").value, 387, 0.01, 0);
 }
+
+TEST_CASE("in plant: a ride in which nothing is told ends without a model, and says so") {
+  const LawModel damper = LawModel::constant(find_law("tanh_guo"), {800, 1200, 15, 0, 1, 0});
+  InPlantSetup setup = car_on_measured_road(2e-4);
+  PlantRecording ride = ride_of(setup, damper, 3);
+  for (Channel& channel : ride.channels)
+    for (double& sample : channel.samples) sample *= 1e-100;
+  setup.unknown = {{"sprung_mass", 100, 1000, 300}, {"tyre_stiffness", 1e5, 1e6, 2e5}};
+  const InPlantReport report =
+      identify_in_plant(find_law("viscous_dahl"), setup, {ride}, {.grade = "car"});
+  CHECK_FALSE(report.model);
+  CHECK(contains(report.message, "diverges"));
+}

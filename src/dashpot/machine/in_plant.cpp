@@ -347,8 +347,10 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                   .alone = {},
                   .with_more = {},
                   .more = {}};
-  const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
-  if (is_finite && has_noisy_inputs(setup)) {
+  const auto is_finite = [&] {
+    return !solved.part_matrices.empty() && std::isfinite(solved.cost);
+  };
+  if (is_finite() && has_noisy_inputs(setup)) {
     solved = solve_beside_noise(setup, recordings, options, start.scale, cases, residuals, solved,
                                 beside, report);
     report.iterations += solved.iterations;
@@ -361,7 +363,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   report.method = cases.method;
   report.message = solved.message;
   report.seconds = cpu_seconds() - started;
-  if (!is_finite) {
+  if (!is_finite()) {
     report.message = "the plant diverges wherever the fit begins: " + solved.message;
     return report;
   }

@@ -65,3 +65,10 @@ TEST_CASE("what the data cannot tell apart is named") {
   REQUIRE(c.confounded.size() == 1);
   CHECK(c.confounded[0] == std::vector<std::size_t>{0, 2});
 }
+
+TEST_CASE("unknowns that change nothing are without effect, all of them too") {
+  const std::vector<std::vector<double>> parts = {std::vector<double>(4)};
+  const Covariance none = covariance(parts, std::vector<double>{1}, 2);
+  CHECK(none.without_effect == std::vector<std::size_t>{0, 1});
+  CHECK(none.confounded.empty());
+}

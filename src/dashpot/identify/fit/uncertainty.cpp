@@ -89,6 +89,8 @@ Covariance covariance(std::span<const std::vector<double>> part_matrices,
   for (std::size_t k = 0; k < n; ++k)
     (curvature[k * n + k] > 1e-14 * steepest ? active : result.without_effect).push_back(k);
 
+  if (active.empty()) return result;  // nothing tells any of them
+
   const std::size_t m = active.size();
   std::vector<double> size;
   for (const std::size_t k : active) size.push_back(std::sqrt(curvature[k * n + k]));
