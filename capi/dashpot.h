@@ -251,7 +251,9 @@ DASHPOT_API dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking
 DASHPOT_API void dashpot_ranking_free(dashpot_ranking** ranking);
 
 /// A model on recordings in free run, without fitting: what `dashpot evaluate --json` prints.
-/// Options (null: none): {"force_offset": "record", "threads": 0}.
+/// Options (null: none): {"force_offset": "record", "threads": 0, "keep_inertia": false}; the last
+/// leaves the force as it was recorded where the model was fitted to forces that were freed of the
+/// inertia between load cell and damper.
 DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model,
                                             const dashpot_recordings* recordings,
                                             const char* options, char** report);

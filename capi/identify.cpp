@@ -35,6 +35,16 @@ ModelFile fitted_file(FitReport fit, const Dataset& dataset, const FitOptions& o
   return file;
 }
 
+/// The recordings that a model is judged on, with the forces that it was fitted to. Throws Error
+/// where one is driven in A and the other in V.
+Dataset judged_recordings(const dashpot_model& model, const dashpot_recordings* recordings,
+                          const EvaluateWords& asked) {
+  Dataset dataset = usable_dataset(recordings);
+  require_same_drive(model.file, dataset, model.name);
+  if (!asked.keep_inertia) take_off_inertia(model.file, dataset);
+  return dataset;
+}
+
 /// Fits the only model asked for. Throws NotUsable where the fit gives none; the report is there
 /// even then.
 void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* monitor,
@@ -172,10 +182,10 @@ dashpot_status dashpot_traces(const dashpot_model* model, const dashpot_recordin
     require(made, "made");
     *made = nullptr;
     require(model, "model");
-    const Dataset dataset = usable_dataset(recordings);
-    require_same_drive(model->file, dataset, model->name);
-    const Evaluation evaluation = evaluate(*model->damper, dataset.records, dataset.drive_unit,
-                                           read_evaluate_options(options));
+    const EvaluateWords asked = read_evaluate_options(options);
+    const Dataset dataset = judged_recordings(*model, recordings, asked);
+    const Evaluation evaluation =
+        evaluate(*model->damper, dataset.records, dataset.drive_unit, asked.options);
 
     // They come even where the model diverged, and show how.
     auto forces = std::make_unique<dashpot_recordings>();
@@ -196,15 +206,12 @@ dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_record
     *report = nullptr;
     require(model, "model");
 
-    // A model driven in A must not be judged on recordings in V.
-    const Dataset dataset = usable_dataset(recordings);
-    require_same_drive(model->file, dataset, model->name);
-
     // The model runs over every recording with the band that its file keeps.
-    EvaluateOptions asked = read_evaluate_options(options);
-    asked.band = model->file.interval;
+    EvaluateWords asked = read_evaluate_options(options);
+    asked.options.band = model->file.interval;
+    const Dataset dataset = judged_recordings(*model, recordings, asked);
     const Evaluation evaluation =
-        evaluate(*model->damper, dataset.records, dataset.drive_unit, asked);
+        evaluate(*model->damper, dataset.records, dataset.drive_unit, asked.options);
 
     // The report comes even where the model diverged, as it says on which recordings.
     *report = copy_text(

@@ -109,14 +109,16 @@ LookOptions read_look_options(const char* text) {
   return options;
 }
 
-EvaluateOptions read_evaluate_options(const char* text) {
+EvaluateWords read_evaluate_options(const char* text) {
   const Value value = parse_options(text);
   ObjectReader reader(value, "the options");
-  EvaluateOptions options;
+  EvaluateWords out;
+  EvaluateOptions& options = out.options;
   options.offset = offset_mode(reader.string("force_offset", "record"), "options, force_offset");
   options.threads = whole_int(reader, "threads", options.threads);
+  out.keep_inertia = reader.boolean("keep_inertia", out.keep_inertia);
   reader.finish();
-  return options;
+  return out;
 }
 
 ExportWords read_export_options(const char* text) {

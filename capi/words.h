@@ -27,7 +27,12 @@ struct LookOptions {
 };
 LookOptions read_look_options(const char* text);
 
-EvaluateOptions read_evaluate_options(const char* text);
+/// The options of dashpot_evaluate and dashpot_traces.
+struct EvaluateWords {
+  EvaluateOptions options;
+  bool keep_inertia = false;
+};
+EvaluateWords read_evaluate_options(const char* text);
 
 /// The options of dashpot_export.
 struct ExportWords {

@@ -26,6 +26,7 @@ struct EvaluateSettings {
   DataSettings data;
   std::string force_offset = "record";
   std::string outside_family = "mark";
+  bool keep_inertia = false;
   std::string report;
   std::string traces, units;
   std::string folder = "dashpot-traces";
@@ -68,8 +69,12 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     file.model = family->with_outside(OutsideFamily::Refuse);
 
   // The recordings must be driven in the unit that the model takes.
-  const Dataset dataset = load_recordings(settings.data, console);
+  Dataset dataset = load_recordings(settings.data, console);
   require_same_drive(file, dataset, settings.model);
+  if (const std::size_t changed = settings.keep_inertia ? 0 : take_off_inertia(file, dataset))
+    console.note("the model was fitted to forces without the inertia of " +
+                 format_number(file.moving_mass, 3) + " kg between load cell and damper: it is taken off " +
+                 counted(changed, "record") + " here, too (not so with --keep-inertia)");
   const EvaluateOptions options{.offset = offset_mode(settings.force_offset, "--force-offset"),
                                 .known_offsets = {},
                                 .band = file.interval,
@@ -151,6 +156,10 @@ Command evaluate_command() {
             "the force zero (gas, load cell): a free offset per record, or the model's own alone",
         .value = "MODE",
         .choices = {"record", "none"}},
+       {.names = "--keep-inertia",
+        .target = &settings->keep_inertia,
+        .help = "leave the force as it was recorded where the model was fitted to forces that "
+                "were freed of the inertia between load cell and damper"},
 
        units_option(settings->units),
        {.names = "--report",

@@ -178,6 +178,11 @@ struct EvaluateOptions {
   std::optional<ForceBand> band = std::nullopt;  ///< to be judged too
   int threads = 0;                               ///< 0: as many as the machine has
 };
+/// Takes off the forces the inertia that was taken off those which the model was fitted to, as far
+/// as it is not off them already. Returns how many records it changed: all but those, and those
+/// without an acceleration.
+std::size_t take_off_inertia(const ModelFile& file, Dataset& dataset);
+
 /// Runs the model freely over each record, from rest, and scores it from the record's warm-up on.
 /// Throws Error where a record lacks a channel that the model needs.
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,

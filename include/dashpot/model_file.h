@@ -54,6 +54,7 @@ struct ModelFile {
   std::unique_ptr<DamperModel> model;
   DriveUnit drive_unit = DriveUnit::Ampere;
   double sample_time = 0;  ///< s, of the training data; 0 when mixed
+  double moving_mass = 0;  ///< kg, whose inertia was taken off the forces of the training data
   Domain domain;
   Provenance provenance;
   Value quality;  ///< the report's figures on training and left-out data; may be null

@@ -42,6 +42,7 @@ struct Record {
   /// The other constant quantities, in SI: gap m, yield_stress Pa, viscosity Pa*s, temperature K
   /// ...
   std::vector<std::pair<std::string, double>> conditions;
+  double moving_mass = 0;    ///< kg, between load cell and damper: its inertia is not in the force
   std::vector<double> time;  ///< s, increasing, one per sample
   double sample_time = 0;    ///< s when uniformly sampled, else 0
   std::vector<Channel> channels;

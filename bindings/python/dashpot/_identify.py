@@ -143,7 +143,9 @@ def identify(
     return Ranking(_core.identify(data._core, json.dumps(asked), progress))
 
 
-def evaluate(model: _core.DamperModel, recordings, *, force_offset: str = "record", threads: int = 0) -> dict:
+def evaluate(
+    model: _core.DamperModel, recordings, *, force_offset: str = "record", threads: int = 0, keep_inertia: bool = False
+) -> dict:
     """What stands behind DamperModel.evaluate()."""
-    options = {"force_offset": force_offset, "threads": threads}
+    options = {"force_offset": force_offset, "threads": threads, "keep_inertia": bool(keep_inertia)}
     return json.loads(_core.evaluate(model, as_recordings(recordings)._core, json.dumps(options)))

@@ -22,9 +22,11 @@ def covariance(model: _core.DamperModel) -> Optional[np.ndarray]:
     return None if matrix is None else np.array(matrix, dtype=float)
 
 
-def traces(model: _core.DamperModel, recordings, *, force_offset: str = "record", threads: int = 0) -> Recordings:
+def traces(
+    model: _core.DamperModel, recordings, *, force_offset: str = "record", threads: int = 0, keep_inertia: bool = False
+) -> Recordings:
     """What stands behind DamperModel.traces()."""
-    options = {"force_offset": force_offset, "threads": threads}
+    options = {"force_offset": force_offset, "threads": threads, "keep_inertia": bool(keep_inertia)}
     made = Recordings()
     made._core = _core.traces(model, as_recordings(recordings)._core, json.dumps(options))
     return made

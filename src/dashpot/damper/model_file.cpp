@@ -38,6 +38,7 @@ std::string format_model(const ModelFile& file) {
                                   {"model", file.model->to_json()},
                                   {"quality", file.quality},
                                   {"provenance", to_json(file.provenance)}});
+  if (file.moving_mass > 0) document.add("moving_mass_kg", file.moving_mass);
   if (file.interval) document.add("interval", to_json(*file.interval));
   if (file.dissipation) document.add("dissipation", to_json(*file.dissipation));
   return format_json(document);
@@ -56,6 +57,9 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   if (!(file.sample_time >= 0))
     throw Error(reader.required("sample_time").where(), "is negative",
                 "seconds, or 0 when it varied");
+  file.moving_mass = reader.number("moving_mass_kg", 0);
+  if (!(file.moving_mass >= 0))
+    throw Error(reader.required("moving_mass_kg").where(), "is negative", "kg, or 0");
   file.domain = read_domain(reader.required("domain"), file.drive_unit);
 
   // Read the model itself, which must serve that unit and domain.

@@ -30,6 +30,7 @@ bool take_off_inertia(Record& record, double mass) {
 
   std::vector<double>& force = record.find("force")->samples;
   for (std::size_t k = 0; k < force.size(); ++k) force[k] -= mass * acceleration[k];
+  record.moving_mass += mass;
   record.notes.push_back("inertia of " + format_number(mass) +
                          " kg between load cell and damper taken off: up to " +
                          format_number(mass * usual_acceleration(acceleration), 3) + " N");

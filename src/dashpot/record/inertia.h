@@ -14,8 +14,8 @@ std::vector<double> acceleration_of(const Record& record);
 /// The greatest acceleration that is usual, m/s^2: one sample of noise is no motion.
 double usual_acceleration(const std::vector<double>& acceleration);
 
-/// Takes the inertia of `mass` kg off the record's force and notes it. False, with nothing done,
-/// where there is no acceleration.
+/// Takes the inertia of `mass` kg off the record's force, beyond what is off already, and notes it.
+/// False, with nothing done, where there is no acceleration.
 bool take_off_inertia(Record& record, double mass);
 
 }  // namespace dashpot

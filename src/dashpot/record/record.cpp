@@ -61,6 +61,7 @@ Record Record::slice(std::size_t first, std::size_t last) const {
   out.condition = condition;
   out.drive_level = drive_level;
   out.conditions = conditions;
+  out.moving_mass = moving_mass;
   out.time = part(time);
   out.sample_time = sample_time;
   for (const Channel& channel : channels)

@@ -168,7 +168,8 @@ std::optional<std::string> inertia_note(const Ranking& ranking) {
   return fmt::format(
       "The inertia of {} kg between load cell and damper is taken off the force of all records: "
       "the errors on left-out records showed it, and {} leaves {} {} of them in place of {} {} "
-      "(RMSE). A dataset file tells other commands, force: {{..., moving_mass: {}}}; with "
+      "(RMSE). Model files state it, and 'evaluate' takes as much off further recordings; a "
+      "dataset file states it for other commands, force: {{..., moving_mass: {}}}. With "
       "--keep-inertia the force stays as it was recorded.",
       mass, found.model, quantity(found.after, "N"), unit_name("N"), quantity(found.before, "N"),
       unit_name("N"), mass);

@@ -189,6 +189,43 @@ TEST_CASE("ranked models carry an interval, by folds and with one division") {
   }
 }
 
+TEST_CASE("ends of records are covered by bands that were made without them, from one fit") {
+  // A record of five stretches, the third of which is five times as noisy as the others.
+  Random random(6);
+  std::vector<RecordResult> left_out = {noisy(10000, 0, random)};
+  const ForceBand shape = *error_shape(left_out);
+  for (std::size_t k = 4000; k < 6000; ++k)
+    left_out[0].measured[k] = 100 + 5 * (left_out[0].measured[k] - 100);
+  const std::vector<ErrorGroups> errors = cover_by_parts(shape, left_out);
+  REQUIRE(errors.size() == 5);
+
+  // The band of the four that are alike is 1.645 times their noise: of one that is five times as
+  // wide it covers 26 %. What the loud one does for the quiet ones is what widening is for.
+  Coverage loud;
+  const std::vector<ErrorGroups> quiet = {errors[0], errors[1], errors[3], errors[4]};
+  loud.add(coverage({&left_out[0], 4000, 6000}, *conformal_band(shape, quiet)));
+  CHECK_CLOSE(loud.percent(), 26, 0.1, 0);
+  CHECK(left_out[0].coverage.samples == 10000);
+  const double four = (left_out[0].coverage.percent() - loud.percent() / 5) / 0.8;
+  CHECK(four > 99);
+  REQUIRE(left_out[0].band);
+  CHECK(left_out[0].band->records == 5);
+
+  // Many records are dealt to ten parts.
+  left_out.assign(23, noisy(100, 1, random));
+  CHECK(cover_by_parts(shape, left_out).size() == 10);
+  left_out.resize(1);
+  left_out[0].diverged_at = 0;
+  cover_by_parts(shape, left_out);
+  CHECK(!left_out[0].band);
+  CHECK(left_out[0].coverage.samples == 0);
+
+  const Ranking ranking =
+      rank({"bingham"}, sines(2), parse_leave_out("fraction=0.3"), {.threads = 1});
+  CHECK(ranking.models[0].fold_fits.empty());
+  CHECK(ranking.models[0].held_back_fits.empty());
+}
+
 TEST_CASE("the judged records do not touch their own interval") {
   Dataset calm = sines(4), wild = calm;
   for (double& force : wild.records[1].channels[2].samples) force += 300 * std::sin(force);

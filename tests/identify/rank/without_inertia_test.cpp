@@ -61,6 +61,17 @@ TEST_CASE("the inertia before a load cell is found, taken off the force, and tol
     }
   }
   CHECK(left < 0.25 * added);
+
+  // A model file says what was taken off, and further recordings lose as much before they judge it.
+  const ModelFile file = to_model_file(ranking.models.front(), data, "");
+  CHECK(parse_model(format_model(file), "m.json").moving_mass == ranking.inertia->mass);
+  const auto rmse = [&](const Dataset& judged) {
+    return evaluate(*file.model, judged.records, judged.drive_unit).pooled.rmse;
+  };
+  Dataset further = with_mass;
+  CHECK(take_off_inertia(file, further) == further.records.size());
+  CHECK(rmse(further) < 0.8 * rmse(with_mass));
+  CHECK(take_off_inertia(file, further) == 0);  // it is off already
 }
 
 TEST_CASE("where there is no inertia none is found, though no law is the damper") {

@@ -12,10 +12,15 @@ constexpr std::size_t kMostLevels = 8;  ///< more constant levels of the drive t
 constexpr int kKnots = 4;               ///< over the range of a drive that varies
 constexpr double kLeaning = 200;        ///< samples that a class borrows from the wider one
 
+LeftOutPart all_of(const RecordResult& record) {
+  return {&record, record.warm_up, record.measured.size()};
+}
+
 template <class Visit>
-void for_each_scored(const RecordResult& r, const Visit& visit) {
+void for_each_scored(const LeftOutPart& part, const Visit& visit) {
+  const RecordResult& r = *part.record;
   if (r.diverged_at) return;
-  for (std::size_t k = r.warm_up; k < r.measured.size(); ++k)
+  for (std::size_t k = part.first; k < part.last; ++k)
     visit(DamperInput{0, r.velocity[k], r.drive[k]}, std::abs(r.measured[k] - r.modelled[k]), k);
 }
 
@@ -58,7 +63,7 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) 
   // Classes of speed and drive.
   double fastest = 0, largest_force = 0;
   for (const RecordResult& r : training)
-    for_each_scored(r, [&](const DamperInput& input, double, std::size_t) {
+    for_each_scored(all_of(r), [&](const DamperInput& input, double, std::size_t) {
       fastest = std::max(fastest, std::abs(input.velocity));
     });
   for (const RecordResult& r : training)
@@ -76,7 +81,7 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) 
   Mean all;
   std::vector<Mean> bands(shape.speeds.size() + 1), cells(bands.size() * columns);
   for (const RecordResult& r : training)
-    for_each_scored(r, [&](const DamperInput& input, double error, std::size_t) {
+    for_each_scored(all_of(r), [&](const DamperInput& input, double error, std::size_t) {
       const auto band = static_cast<std::size_t>(
           std::ranges::upper_bound(shape.speeds, std::abs(input.velocity)) - shape.speeds.begin());
       all.add(error);
@@ -95,14 +100,19 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) 
 
 ErrorGroups relative_errors(const std::vector<RecordResult>& left_out, const ForceBand& shape) {
   ErrorGroups groups;
-  for (const RecordResult& r : left_out) {
-    std::vector<double> group;
-    for_each_scored(r, [&](const DamperInput& input, double error, std::size_t k) {
-      group.push_back(error / shape.half_width_at(input, r.spread_at(k)));
-    });
-    if (!group.empty()) groups.push_back(std::move(group));
-  }
+  for (const RecordResult& r : left_out)
+    for (std::vector<double>& group : relative_errors(all_of(r), shape))
+      groups.push_back(std::move(group));
   return groups;
+}
+
+ErrorGroups relative_errors(const LeftOutPart& part, const ForceBand& shape) {
+  const RecordResult& r = *part.record;
+  std::vector<double> group;
+  for_each_scored(part, [&](const DamperInput& input, double error, std::size_t k) {
+    group.push_back(error / shape.half_width_at(input, r.spread_at(k)));
+  });
+  return group.empty() ? ErrorGroups{} : ErrorGroups{std::move(group)};
 }
 
 std::optional<double> conformal_factor(const std::vector<ErrorGroups>& parts, double level) {
@@ -159,6 +169,47 @@ std::optional<ForceBand> conformal_band(const std::optional<ForceBand>& shape,
   band.level = kCoverage;
   for (const ErrorGroups& groups : parts) band.records += groups.size();
   return band;
+}
+
+Coverage coverage(const RecordResult& record, const ForceBand& band) {
+  return coverage(all_of(record), band);
+}
+
+Coverage coverage(const LeftOutPart& part, const ForceBand& band) {
+  const RecordResult& r = *part.record;
+  Coverage covered;
+  for_each_scored(part, [&](const DamperInput& input, double error, std::size_t k) {
+    const double half = band.half_width_at(input, r.spread_at(k)), force = r.measured[k];
+    covered.add({.samples = 1,
+                 .inside = error <= half,
+                 .width = 2 * half,
+                 .force_min = force,
+                 .force_max = force});
+  });
+  return covered;
+}
+
+std::vector<ErrorGroups> cover_by_parts(const ForceBand& shape,
+                                        std::vector<RecordResult>& left_out) {
+  constexpr std::size_t kMost = 10;  // parts that many records are dealt to in turn
+  const std::vector<LeftOutPart> all = left_out_parts(left_out);
+  std::vector<ErrorGroups> errors(std::min(kMost, all.size()));
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (std::vector<double>& group : relative_errors(all[k], shape))
+      errors[k % errors.size()].push_back(std::move(group));
+
+  // Each part is covered by the band of the others.
+  const std::optional<ForceBand> band = conformal_band(shape, errors);
+  for (RecordResult& record : left_out) record.band = band, record.coverage = {};
+  for (std::size_t part = 0; part < errors.size(); ++part) {
+    std::vector<ErrorGroups> others = errors;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(part));
+    const std::optional<ForceBand> of_others = conformal_band(shape, others);
+    for (std::size_t k = part; k < all.size() && of_others; k += errors.size())
+      left_out[static_cast<std::size_t>(all[k].record - left_out.data())].coverage.add(
+          coverage(all[k], *of_others));
+  }
+  return errors;
 }
 
 }  // namespace dashpot

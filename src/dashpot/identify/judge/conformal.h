@@ -6,6 +6,7 @@
 
 #include "dashpot/damper/force_band.h"
 #include "dashpot/evaluate.h"
+#include "dashpot/identify/judge/left_out_parts.h"
 
 namespace dashpot {
 
@@ -33,7 +34,9 @@ namespace dashpot {
 // all. The band is about the model's force with the record's offset, where that is a free nuisance.
 //
 // A judged fold gives no error to its own band, but the fits of the other folds have seen its
-// records, so that this is exact for one split and approximate across folds.
+// records, so that this is approximate across folds. Of ends of records, which one fit has not
+// seen, each part is covered by the band of the others; what that says of another recording is
+// said by as few stretches of time as there are.
 
 constexpr double kCoverage = 0.9;  ///< what an interval claims
 
@@ -46,6 +49,8 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training);
 /// none for one that diverged.
 using ErrorGroups = std::vector<std::vector<double>>;
 ErrorGroups relative_errors(const std::vector<RecordResult>& left_out, const ForceBand& shape);
+
+ErrorGroups relative_errors(const LeftOutPart& part, const ForceBand& shape);
 
 /// The least factor q with mean over parts, and in them over groups, of (errors <= q) / (size + 1)
 /// >= level: for one group the split conformal rank, ceil((n + 1) level). Nothing when no factor
@@ -61,5 +66,15 @@ std::optional<double> widening(const std::vector<ErrorGroups>& parts, double lev
 /// The shape made as wide as the parts ask, widened for one that is new.
 std::optional<ForceBand> conformal_band(const std::optional<ForceBand>& shape,
                                         const std::vector<ErrorGroups>& parts);
+
+/// How much of a record, or of a stretch of it, a band covers; nothing of one that diverged.
+Coverage coverage(const RecordResult& record, const ForceBand& band);
+Coverage coverage(const LeftOutPart& part, const ForceBand& band);
+
+/// The interval of a model on records that it was not fitted on, from these records alone, which
+/// are parts for one another. Each record is given the band that all of them ask for, and the
+/// coverage of bands that were made without the part which they cover. Returns the errors.
+std::vector<ErrorGroups> cover_by_parts(const ForceBand& shape,
+                                        std::vector<RecordResult>& left_out);
 
 }  // namespace dashpot

@@ -74,20 +74,6 @@ ErrorSums error_sums(const RecordResult& result, double offset) {
   return sums;
 }
 
-Coverage coverage_of(const RecordResult& r) {
-  Coverage coverage;
-  if (!r.band || r.diverged_at) return coverage;
-  for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
-    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]}, r.spread_at(k));
-    coverage.inside += std::abs(r.measured[k] - r.modelled[k]) <= half;
-    coverage.width += 2 * half;
-  }
-  coverage.samples = r.sums.n;
-  coverage.force_min = r.sums.force_min;
-  coverage.force_max = r.sums.force_max;
-  return coverage;
-}
-
 double energy_error_percent(const RecordResult& r) {
   const std::span time(r.time), velocity(r.velocity), measured(r.measured), modelled(r.modelled);
   const double truth = dissipated_energy(time.subspan(r.warm_up), velocity.subspan(r.warm_up),
@@ -175,6 +161,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, Dri
   result.metrics_without_offset = metrics(result.sums_without_offset);
   for (double& force : result.modelled) force += result.offset;
   result.energy_error = energy_error_percent(result);
+  if (result.band) result.coverage = coverage(result, *result.band);
   return result;
 }
 
@@ -271,7 +258,6 @@ Evaluation summarise(std::vector<RecordResult> records) {
       ++evaluation.diverged;
       continue;
     }
-    r.coverage = coverage_of(r);
     evaluation.coverage.add(r.coverage);
     sums.add(r.sums);
     without.add(r.sums_without_offset);
@@ -413,6 +399,14 @@ Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records
     results[k] = evaluate_record(model, records[k], drive_unit, options);
   });
   return summarise(std::move(results));
+}
+
+std::size_t take_off_inertia(const ModelFile& file, Dataset& dataset) {
+  std::size_t changed = 0;
+  for (Record& record : dataset.records)
+    if (const double mass = file.moving_mass - record.moving_mass; mass > 0)
+      changed += take_off_inertia(record, mass);
+  return changed;
 }
 
 Evaluation pool(const std::vector<Evaluation>& evaluations) {

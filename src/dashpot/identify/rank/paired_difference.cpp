@@ -3,20 +3,11 @@
 #include <cassert>
 #include <cmath>
 
+#include "dashpot/identify/judge/left_out_parts.h"
 #include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
 namespace {
-
-/// Errors over so many equal stretches of a record's scored samples.
-std::vector<ErrorSums> by_stretch(const RecordResult& record, std::size_t stretches) {
-  std::vector<ErrorSums> sums(stretches);
-  const std::size_t scored = record.measured.size() - record.warm_up;
-  for (std::size_t k = 0; k < scored; ++k)
-    sums[k * stretches / scored].add(record.measured[record.warm_up + k],
-                                     record.modelled[record.warm_up + k]);
-  return sums;
-}
 
 std::vector<ErrorSums> by_unit(std::span<const Evaluation> folds) {
   std::vector<ErrorSums> sums;
@@ -28,11 +19,11 @@ std::vector<ErrorSums> by_unit(std::span<const Evaluation> folds) {
     return sums;
   }
 
-  // Few records are divided once more, each into as many stretches.
-  const std::vector<RecordResult>& records = folds.front().records;
-  const std::size_t stretches = (kLeastUnits + records.size() - 1) / records.size();
-  for (const RecordResult& record : records)
-    for (const ErrorSums& stretch : by_stretch(record, stretches)) sums.push_back(stretch);
+  for (const LeftOutPart& part : left_out_parts(folds.front().records)) {
+    sums.emplace_back();
+    for (std::size_t k = part.first; k < part.last; ++k)
+      sums.back().add(part.record->measured[k], part.record->modelled[k]);
+  }
   return sums;
 }
 

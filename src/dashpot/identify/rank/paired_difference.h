@@ -22,12 +22,10 @@
 // cannot be told from it.
 namespace dashpot {
 
-inline constexpr double kPairedLevel = 0.9;    ///< that an interval claims
-inline constexpr std::size_t kLeastUnits = 5;  ///< where one fold has fewer records, stretches
+inline constexpr double kPairedLevel = 0.9;  ///< that an interval claims
 
 /// What each unit adds to the pooled ESR, %; the parts add up to it. Units are the folds, where
-/// there are several; else the left-out records, or equal stretches of them where they are fewer
-/// than kLeastUnits. Empty where a record diverged.
+/// there are several; else the stretches of the left-out records. Empty where a record diverged.
 std::vector<double> esr_parts(std::span<const Evaluation> folds);
 
 /// From the parts of both models, unit by unit. Nothing with fewer than two units.

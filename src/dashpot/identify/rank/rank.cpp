@@ -364,10 +364,18 @@ class RankingRun {
     return errors;
   }
 
-  /// Gives each left-out record its interval, built without its fold, and returns the errors that
-  /// the final model's interval comes from.
+  /// Gives each left-out record its interval, built without what it is judged on, and returns the
+  /// errors that the final model's interval comes from.
   std::vector<ErrorGroups> add_bands(const RankedModel& ranked,
                                      std::vector<Evaluation>& left_out) const {
+    // The ends of all records are as many parts as their stretches, without a further fit.
+    if (ranking_.leave_out.by == LeaveOut::By::Fraction) {
+      const FitReport& fit = fit_of(ranked, 0);
+      const std::optional<ForceBand> shape = error_shape(evaluate_fit(fit, training_).records);
+      if (!shape) return {};
+      return cover_by_parts(*shape, left_out.front().records);
+    }
+
     std::vector<FoldErrors> folds;
     for (std::size_t f = 0; f < folds_.size(); ++f)
       folds.push_back(fold_errors(fit_of(ranked, f), folds_[f], left_out[f]));
@@ -391,7 +399,11 @@ class RankingRun {
     // The band of a fold comes from the others; that of the final model from all.
     for (std::size_t f = 0; f < folds.size(); ++f) {
       const std::optional<ForceBand> band = conformal_band(folds[f].shape, others(f));
-      for (RecordResult& record : left_out[f].records) record.band = band;
+      if (!band) continue;
+      for (RecordResult& record : left_out[f].records) {
+        record.band = band;
+        record.coverage = coverage(record, *band);
+      }
     }
     return others(folds.size());
   }
@@ -561,8 +573,11 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
   }
   file.domain = domain_of(used, dataset.drive_unit);
   file.sample_time = used.front().sample_time;
-  for (const Record& record : used)
+  file.moving_mass = used.front().moving_mass;
+  for (const Record& record : used) {
     if (record.sample_time != file.sample_time) file.sample_time = 0;
+    if (record.moving_mass != file.moving_mass) file.moving_mass = 0;
+  }
 
   // Its origin, and how good it is.
   file.provenance = provenance_of(dataset, std::move(names), command);
