@@ -223,6 +223,8 @@ ObserveOptions read_observe_options(const char* text) {
   options.level = reader.number("level", options.level);
   options.steps = whole_int(reader, "steps", options.steps);
   options.threads = whole_int(reader, "threads", options.threads);
+
+  // Errors of the force: how large, N, and for how long, s.
   if (const Value* errors = reader.optional("force_error"))
     for (const Value& one : errors->items()) {
       const std::vector<double> numbers = one.as_numbers();

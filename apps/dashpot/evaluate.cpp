@@ -73,8 +73,9 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   require_same_drive(file, dataset, settings.model);
   if (const std::size_t changed = settings.keep_inertia ? 0 : take_off_inertia(file, dataset))
     console.note("the model was fitted to forces without the inertia of " +
-                 format_number(file.moving_mass, 3) + " kg between load cell and damper: it is taken off " +
-                 counted(changed, "record") + " here, too (not so with --keep-inertia)");
+                 format_number(file.moving_mass, 3) +
+                 " kg between load cell and damper: it is taken off " + counted(changed, "record") +
+                 " here, too (not so with --keep-inertia)");
   const EvaluateOptions options{.offset = offset_mode(settings.force_offset, "--force-offset"),
                                 .known_offsets = {},
                                 .band = file.interval,

@@ -18,6 +18,8 @@
 
 namespace dashpot {
 
+struct ModelFile;
+
 /// Errors of a modelled force against a measured one. Several records pool by adding sums.
 struct ErrorSums {
   std::size_t n = 0;

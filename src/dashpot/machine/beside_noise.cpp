@@ -358,6 +358,8 @@ void add_noise(const InPlantSetup& setup, const NoiseFound& found, InPlantReport
                                   .low = value * std::exp(-half),
                                   .high = value * std::exp(half)});
   };
+
+  // In the order of the uncertainties.
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
     add("noise of " + setup.sensors[s].channel, unit_of(setup.sensors[s].place.quantity),
         found.sources.sensors[s]);

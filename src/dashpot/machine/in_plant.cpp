@@ -96,6 +96,8 @@ std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
   constexpr int kFewer = 4;
   std::vector<Candidate> all;
   if (from_bench) all.push_back(*from_bench);
+
+  // Each scales what a fit expects of the damper; those behind the sizes above start at random.
   const int others = from_bench ? options.starts / kFewer : options.starts;
   Random random(options.seed);
   for (std::size_t k = 0; k < static_cast<std::size_t>(others); ++k) {

@@ -54,10 +54,13 @@ RecordingNoise::RecordingNoise(const InPlantSetup& setup, const StandIn& stand_i
       samples_(quick_length(samples)),
       lines_(static_cast<std::size_t>(kOfRate * static_cast<double>(samples_))),
       sample_time_(sample_time) {
+  // The plant, with a stand-in for the damper.
   std::vector<PlantInputPlace> places;
   for (const PlantInputChannel& input : setup.inputs) places.push_back(input.place);
   const DrivenPlant plant(make_plant(*setup.model, setup.known), setup.strut, places);
   PlantAtLine at(plant, setup, stand_in);
+
+  // At each line of the spectrum: what every sensor shows of each input, then of the force.
   std::vector<Complex> shows(sensors_);
   const double duration = sample_time * static_cast<double>(samples_);
   for (std::size_t l = 0; l < lines_; ++l) {
@@ -100,6 +103,8 @@ void RecordingNoise::weigh_by(const NoiseSources& sources) {
   std::vector<Complex> shows(sensors_);
   for (std::size_t l = 0; l < lines_; ++l) {
     Complex* covariance = &factors_[l * sensors_ * sensors_];
+
+    // The noise of the sensors themselves, and what they show of that of inputs and force.
     for (std::size_t s = 0; s < sensors_; ++s) covariance[s * sensors_ + s] = variances_[s];
     for (std::size_t j = sensors_; j < variances_.size(); ++j) {
       const Complex* gain = &gains_[(l * (inputs_ + 1) + gain_of(j)) * sensors_];

@@ -8,6 +8,9 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/identify/judge/conformal.h"
+#include "dashpot/model_file.h"
+#include "dashpot/record/inertia.h"
 #include "dashpot/record/time_base.h"
 
 namespace dashpot {

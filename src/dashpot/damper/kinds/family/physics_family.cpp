@@ -262,6 +262,8 @@ Value PhysicsFamily::to_json() const {
 
 std::unique_ptr<FamilyForce> read_physics_family(const Value& value, ObjectReader& reader) {
   FamilyPhysics physics;
+
+  // The drawing in the middle of the data, and the numbers there.
   ObjectReader reference(reader.required("reference"), "the middle of a family");
   for (const ReferenceField& field : kReferences)
     physics.reference.*field.field = reference.number(field.name);
@@ -270,6 +272,8 @@ std::unique_ptr<FamilyForce> read_physics_family(const Value& value, ObjectReade
   for (std::size_t k = 0; k < kPhysicsNumbers; ++k)
     physics.numbers[k] = numbers.number(kTable[k].name);
   numbers.finish();
+
+  // How builds differ, and what the fit knows of all.
   read_array(reader.required("deviation"), physics.deviation);
   read_array(reader.required("covariance"), physics.covariance);
   physics.record_error = reader.number("record_error");
