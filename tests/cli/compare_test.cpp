@@ -18,7 +18,7 @@ struct Campaigns {
 const Campaigns& campaigns() {
   static const Campaigns all;
   static const bool made = [] {
-    const std::string bench = "bench --motions 20x0.1,20x0.4,20x1,20x2 --levels 0,1 --cycles 4 ";
+    const std::string bench = "bench --motions 20x0.2,20x0.4,20x1,20x2 --levels 0,1 --cycles 4 ";
     for (const auto& [seed, to] : {std::pair{"1", all.before}, {"2", all.after}}) {
       const ProgramResult result =
           run_dashpot(bench + "--sample-rate 200 --seed " + seed + " --output " + to);

@@ -117,7 +117,8 @@ void check_inspected(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("every format of recordings, damaged in any way, is read or refused within its budget") {
+TEST_CASE("every format of recordings, damaged in any way, is read or refused within its budget" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   for (const Recording& recording : recordings()) {
     CAPTURE(recording.name);

@@ -63,7 +63,8 @@ TEST_CASE("every command explains itself on one screen, with an example; topics 
   }
 }
 
-TEST_CASE("the topics of a command explain every option that its help leaves out") {
+TEST_CASE("the topics of a command explain every option that its help leaves out" *
+          doctest::test_suite("long")) {
   for (const std::string command : {"identify", "export"}) {
     const std::string help = run_dashpot("help " + command).output;
     CHECK(run_dashpot(command + " --help").output == help);
@@ -132,7 +133,8 @@ TEST_CASE("the documentation page names every command, and the one in docs/ is u
     CHECK(contains(page.output, std::string("\n## dashpot ") + command));
 }
 
-TEST_CASE("a wrong command line exits with 2 and says what would be right") {
+TEST_CASE("a wrong command line exits with 2 and says what would be right" *
+          doctest::test_suite("long")) {
   const struct {
     const char *arguments, *message;
   } cases[] = {

@@ -35,7 +35,8 @@ TEST_CASE("docs/laws-from-a-file.md: its law and its commands work as they stand
   CHECK(contains(refused.output, page.substr(shown, page.find('\n', shown) - shown)));
 }
 
-TEST_CASE("bouc_wen as a file is fitted and ranked beside bouc_wen with the same numbers") {
+TEST_CASE("bouc_wen as a file is fitted and ranked beside bouc_wen with the same numbers" *
+          doctest::test_suite("long")) {
   TemporaryFolder folder;
   const std::string here = folder.path().string();
   const ProgramResult bench = run_dashpot(

@@ -19,7 +19,8 @@ TEST_CASE("models fits 80 columns, the list and every model" * doctest::test_sui
   }
 }
 
-TEST_CASE("models NAME: equation, every parameter with its unit, source") {
+TEST_CASE("models NAME: equation, every parameter with its unit, source" *
+          doctest::test_suite("long")) {
   for (const Law* law : laws()) {
     CAPTURE(law->name);
     const ProgramResult result = run_dashpot("models " + std::string(law->name));

@@ -99,7 +99,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("design: the same designs on any number of threads, others for another seed") {
+TEST_CASE("design: the same designs on any number of threads, others for another seed" *
+          doctest::test_suite("long")) {
   DesignRequest request = named_request("family_prototype");
   request.samples = 8;
   const auto text = [&](std::uint64_t seed, int threads) {

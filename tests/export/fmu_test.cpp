@@ -266,7 +266,8 @@ TEST_CASE("FMU: what lies inside") {
   }
 }
 
-TEST_CASE("FMU: SOURCE_DATE_EPOCH makes it the same bytes each time") {
+TEST_CASE("FMU: SOURCE_DATE_EPOCH makes it the same bytes each time" *
+          doctest::test_suite("long")) {
   if (!has_compiler()) return;
   const FixedDate date("1700000000");
   for (const int version : {2, 3}) {
@@ -297,7 +298,8 @@ TEST_CASE("FMU: the token is that of the content") {
   CHECK(token(model, options) != own);
 }
 
-TEST_CASE("FMU: the binary needs the C library only and exports FMI only") {
+TEST_CASE("FMU: the binary needs the C library only and exports FMI only" *
+          doctest::test_suite("long")) {
   if (!has_compiler()) return;
   for (const int version : {2, 3}) {
     const LoadedFmu fmu(shipped_fmu_of(exported(*example("hybrid").model), version));

@@ -114,7 +114,8 @@ TEST_CASE("between samples: a sine at a fifth of the rate and its derivative; st
   CHECK_CLOSE(late[100], 1 + std::sin(kOmega * (kDt * 100 - 0.004)), 0, 2e-5);
 }
 
-TEST_CASE("in plant: mass and Bouc-Wen of an oscillator from its displacement, within intervals") {
+TEST_CASE("in plant: mass and Bouc-Wen of an oscillator from its displacement, within intervals" *
+          doctest::test_suite("long")) {
   const InPlantReport report =
       identify_in_plant(find_law("bouc_wen"), oscillator_setup(), {short_recording()}, {});
   CAPTURE(report.message);

@@ -189,7 +189,8 @@ TEST_CASE("utfsm without any dataset file") {
                       [&](const PassedOver& passed) { return passed.file == file; }));
 }
 
-TEST_CASE("the shipped dataset files recognise the measured recordings") {
+TEST_CASE("the shipped dataset files recognise the measured recordings" *
+          doctest::test_suite("long")) {
   struct Shipped {
     const char *folder, *name, *drive;
     std::size_t records, folds;

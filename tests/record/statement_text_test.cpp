@@ -83,7 +83,8 @@ TEST_CASE("files with several tests and gaps are stated with all their levels") 
   check_round_trip(folder.path() / "data");
 }
 
-TEST_CASE("the measured sets, read by what was understood of them, are the same") {
+TEST_CASE("the measured sets, read by what was understood of them, are the same" *
+          doctest::test_suite("long")) {
   for (const char* set : {"utfpr", "utfsm"}) {
     const fs::path data = shared_data(set);
     if (data.empty()) return;

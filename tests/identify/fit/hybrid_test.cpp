@@ -18,7 +18,8 @@ Dataset campaign(std::vector<SineMotion> motions) {
 
 }  // namespace
 
-TEST_CASE("the network adds what the law lacks, with the same bits on any number of threads") {
+TEST_CASE("the network adds what the law lacks, with the same bits on any number of threads" *
+          doctest::test_suite("long")) {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   const Dataset unseen = campaign({{0.007, 2}});
   const FitReport law = identify("viscous_dahl", training, DriveUnit::Ampere, {});

@@ -101,7 +101,8 @@ TEST_CASE("asked to, laws take rebound and compression apart where the damper ha
   }
 }
 
-TEST_CASE("a damper alike in both directions keeps the bits of its fit") {
+TEST_CASE("a damper alike in both directions keeps the bits of its fit" *
+          doctest::test_suite("long")) {
   for (const std::string law : {"bingham", "bouc_wen"}) {
     const FitReport fit = fit_of(law, 1, {.asymmetric = true}), alike = fit_of(law, 1);
     CHECK(format_json(fit.model->to_json()) == format_json(alike.model->to_json()));

@@ -158,7 +158,8 @@ TEST_CASE("a filter whose rate the user has fixed is left alone") {
   CHECK(restriction_of(fit).empty());
 }
 
-TEST_CASE("a filter's rate that is fitted, or follows the drive, is slowed too") {
+TEST_CASE("a filter's rate that is fitted, or follows the drive, is slowed too" *
+          doctest::test_suite("long")) {
   for (const std::optional<Form> form : {std::optional<Form>(), std::optional(Form::Linear)}) {
     const IdentifyOptions options{.choices = {{.parameter = "r", .form = form, .free = true}}};
     CHECK(verdict(fit_of_dahl("tanh_acceleration", options)).dissipates());

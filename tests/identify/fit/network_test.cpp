@@ -132,7 +132,8 @@ TEST_CASE("settings reach the trainer") {
         }).find("trainer=lm, the usual one, has none") != std::string::npos);
 }
 
-TEST_CASE("an ensemble is the mean of its members, the same on any number of threads") {
+TEST_CASE("an ensemble is the mean of its members, the same on any number of threads" *
+          doctest::test_suite("long")) {
   const std::vector<Record> records = campaign();
   for (const char* patience : {"patience=0", "patience=10"}) {
     const std::vector<std::string> settings = {"hidden=4", "members=3", "epochs=40", patience};

@@ -19,7 +19,8 @@ double share_of(const FitReport& fit) {
 
 }  // namespace
 
-TEST_CASE("a law beside a network is fitted with the same bits on any number of threads") {
+TEST_CASE("a law beside a network is fitted with the same bits on any number of threads" *
+          doctest::test_suite("long")) {
   const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options = brief();
   options.threads = 1;

@@ -2,6 +2,7 @@
 
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/rank.h"
+#include "sanitized.h"
 #include "studies/ride_rank/true_dampers.h"
 #include "support.h"
 
@@ -17,8 +18,8 @@ Dataset recorded(double mass) {
   BenchOptions bench;
   bench.motions = {{0.02, 1}, {0.01, 3}, {0.005, 8}, {0.002, 20}};
   bench.drive_levels = {0, 1, 2};
-  bench.sample_rate = 1000;
-  bench.cycles = 2;
+  bench.sample_rate = kSanitized ? 250 : 500;
+  bench.cycles = kSanitized ? 1 : 2;
   Dataset data = run_virtual_bench(*make_true_damper(parts), DriveUnit::Ampere, bench);
 
   // The bench's motions are sines, which are their own acceleration.
@@ -74,7 +75,8 @@ TEST_CASE("the inertia before a load cell is found, taken off the force, and tol
   CHECK(take_off_inertia(file, further) == 0);  // it is off already
 }
 
-TEST_CASE("where there is no inertia none is found, though no law is the damper") {
+TEST_CASE("where there is no inertia none is found, though no law is the damper" *
+          doctest::test_suite("long")) {
   Dataset data = recorded(0);
   const Ranking plain = rank({"tanh_kwok", "bouc_wen"}, data, {.by = LeaveOut::By::Condition}, {});
   const Ranking ranking = ranked(data);
@@ -82,7 +84,8 @@ TEST_CASE("where there is no inertia none is found, though no law is the damper"
   CHECK(ranking.models.front().left_out.pooled.esr == plain.models.front().left_out.pooled.esr);
 }
 
-TEST_CASE("without an acceleration the force stays as it was recorded") {
+TEST_CASE("without an acceleration the force stays as it was recorded" *
+          doctest::test_suite("long")) {
   Dataset data = recorded(5);
   Record& record = data.records.back();
   record.sample_time = 0;

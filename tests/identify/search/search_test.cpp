@@ -196,7 +196,8 @@ TEST_CASE(
   CHECK(search_verdict(report).starts_with("No trial can be used"));
 }
 
-TEST_CASE("no finalist on the front is beaten with as few parameters") {
+TEST_CASE("no finalist on the front is beaten with as few parameters" *
+          doctest::test_suite("long")) {
   const SearchReport report =
       search(campaign(), {}, grid({"hidden=1,2,3,4,6", "activation=tanh,relu"}));
   for (const Trial& a : report.trials) {

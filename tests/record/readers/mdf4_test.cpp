@@ -197,7 +197,8 @@ TEST_CASE("MDF 4: values of different lengths are passed over with a note") {
   CHECK(table.notes[0] == "channel 'remark' passed over: its values have different lengths");
 }
 
-TEST_CASE("MDF 4: a bomb of packed blocks listed again and again is refused") {
+TEST_CASE("MDF 4: a bomb of packed blocks listed again and again is refused" *
+          doctest::test_suite("long")) {
   ExampleMdf4 file;
   const std::uint64_t block = file.packed(std::string(std::size_t{8} << 20, '\0'));
   const std::uint64_t data = file.list(std::vector<std::uint64_t>(200, block));

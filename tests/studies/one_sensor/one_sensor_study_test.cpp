@@ -100,7 +100,8 @@ TEST_CASE(
         0.5 * study.result(0, kStatic, 0)->metrics.esr);
 }
 
-TEST_CASE("the same bits on any number of threads, and from kept fits; a study can be stopped") {
+TEST_CASE("the same bits on any number of threads, and from kept fits; a study can be stopped" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   FitStore store(folder.path() / "fits.sqlite", "test");
   OneSensorOptions options = quick({kStatic, "bingham"});

@@ -94,7 +94,8 @@ TEST_CASE("stops and limits of data are met where they are") {
   CHECK(free.rides[0][0].stops_met == 0);
 }
 
-TEST_CASE("the same bits for any number of threads, and for any interruption") {
+TEST_CASE("the same bits for any number of threads, and for any interruption" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const SweepRequest request = example(80);
   const Sweep one = run(request, folder.path() / "one.sqlite");

@@ -94,7 +94,8 @@ TEST_CASE("a settled sine has the force of many cycles, however long they take t
     }
 }
 
-TEST_CASE("a settled sine is to 0.1 % what the same steps come to, whichever spring takes long") {
+TEST_CASE("a settled sine is to 0.1 % what the same steps come to, whichever spring takes long" *
+          doctest::test_suite("long")) {
   // The seal's spring takes long where its friction is much and gives far, the flow's where it is
   // weak: each by itself, both and neither.
   constexpr int kSteps = 40;
