@@ -35,6 +35,11 @@ class GroundMotion {
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] = foot(t + step * static_cast<double>(k), track, behind);
   }
+  /// The same at each of these instants, s.
+  virtual void feet_at(std::span<const double> t, std::size_t track, double behind,
+                       std::span<FootMotion> out) const noexcept {
+    for (std::size_t k = 0; k < t.size(); ++k) out[k] = foot(t[k], track, behind);
+  }
   /// The acceleration of the ground, m/s^2, at t seconds.
   virtual double acceleration(double) const noexcept { return 0; }
   /// Whether it is an acceleration, which plants without tyres ask for, and not a height.

@@ -51,6 +51,7 @@ class Simulation {
                 static_cast<std::size_t>(options.duration / output_step_) + 2),
         signals_(setting.plant.struts.size()),
         demands_(signals_.size()),
+        road_(setting.plant.tyres.size()),
         controller_state_(setting.controller ? setting.controller->state_size() : 0) {
     if (setting.controller) setting.controller->reset(controller_state_);
     for (const Tyre& tyre : setting.plant.tyres)
@@ -67,8 +68,11 @@ class Simulation {
     // Jumps, samples and outputs at this instant, then on to the next of them.
     while (true) {
       meet_jumps();
-      if (samples.strikes(state_.time)) control();
-      if (output.strikes(state_.time)) write();
+      const bool samples_now = samples.strikes(state_.time);
+      const bool writes_now = output.strikes(state_.time);
+      if (samples_now || writes_now) meet_road();
+      if (samples_now) control();
+      if (writes_now) write();
       if (state_.time >= end * (1 - 1e-12)) break;
       const double next = std::min({output.next(), samples.next(), next_jump(), end});
       if (!integrator_.advance(state_, next)) {
@@ -93,6 +97,11 @@ class Simulation {
     if (jump_ != before) integrator_.refresh(state_);
   }
 
+  /// The road as samples and outputs at this instant have it.
+  void meet_road() {
+    for (std::size_t w = 0; w < road_.size(); ++w) road_[w] = forces_.foot(w, state_.time);
+  }
+
   void control() {
     const Plant& plant = setting_.plant;
     const std::size_t n = plant.size();
@@ -105,7 +114,7 @@ class Simulation {
     if (sensors_.ideal()) {
       x = state_.x;
       resting_.resize(n);
-      forces_.resting_place(state_.time, resting_);
+      forces_.resting_place(road_, resting_);
       for (std::size_t k = 0; k < n; ++k) x[k] -= resting_[k];
     }
 
@@ -136,7 +145,7 @@ class Simulation {
 
   void write() {
     options_.monitor.check();
-    writer_.write(state_);
+    writer_.write(state_, road_);
   }
 
   void finish(Trace& trace) {
@@ -179,6 +188,7 @@ class Simulation {
   TraceWriter writer_;
   std::vector<StrutSignals> signals_;
   std::vector<DamperDemand> demands_;
+  std::vector<FootMotion> road_;  ///< under each tyre, at the last sample or output
   std::vector<double> controller_state_, plant_state_, resting_, jumps_;
   std::size_t jump_ = 0;
 };

@@ -72,7 +72,7 @@ double stops_met(const Record& trace, const Plant& plant, std::size_t first) {
   });
 }
 
-void TraceWriter::write(const PlantState& state) {
+void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road) {
   const std::size_t n = plant_.size();
   const double *q = state.x.data(), *v = q + n;
   record_.time.push_back(state.time);
@@ -98,10 +98,9 @@ void TraceWriter::write(const PlantState& state) {
     add(damper.command());
   }
   for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
-    const double road = forces_.foot(w, state.time).height;
-    add(road);
-    add(along(plant_.tyres[w].row, q) - road);
-    add(forces_.tyre_load(w, state.time, state.x));
+    add(road[w].height);
+    add(along(plant_.tyres[w].row, q) - road[w].height);
+    add(forces_.tyre_load(w, road[w], state.x));
   }
   if (!plant_.ground.empty()) add(ground_.acceleration(state.time));
 }

@@ -14,7 +14,8 @@ class TraceWriter {
  public:
   TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,
               std::size_t samples);
-  void write(const PlantState& state);
+  /// road: under the plant's tyres, at the state's instant.
+  void write(const PlantState& state, std::span<const FootMotion> road);
   Record take() { return std::move(record_); }
 
  private:

@@ -37,6 +37,18 @@ TEST_CASE("a law's loop is its own whatever the strength does with current") {
   REQUIRE(published);
   CHECK(published->state == 1);
   CHECK(published->in_series);
+
+  // Dahl's equation at any of these is that of its loop: w' = rho v slope, along the motion.
+  const LawModel dahl = with_form("viscous_dahl", "f0", Form::Constant, {0});
+  const auto friction = loop_of(dahl);
+  REQUIRE(friction);
+  for (const double w : {-1.0, -0.4, 0.0, 0.7, 1.0})
+    for (const double v : {-0.3, 0.2}) {
+      double rate = NAN;
+      dahl.flow({0, v, 0}, std::span(&w, 1), std::span(&rate, 1));
+      const double side = v < 0 ? -1 : 1, slope = LawLoopKind::slope(friction->shape, side * w);
+      CHECK_CLOSE(rate, friction->shape.rate * v * slope, 1e-12, 1e-9);
+    }
 }
 
 TEST_CASE("a shape that follows the current is none, wherever on the way it is another") {

@@ -113,6 +113,22 @@ TEST_CASE("the same seed gives the same road, another one another") {
   CHECK(filtered_road(options).tracks != filtered_road(other).tracks);
 }
 
+TEST_CASE("a road met at several instants at once is that met one by one, to the bit") {
+  const GroundPointer ground =
+      drive_over(cosine_road({.length = 10, .spacing = 0.05, .track_width = 1.5}), 7);
+  for (const std::size_t count : {1, 4, 5, 11}) {
+    std::vector<double> t;
+    for (std::size_t k = 0; k < count; ++k) t.push_back(-0.1 + 0.17 * static_cast<double>(k));
+    std::vector<FootMotion> feet(count);
+    ground->feet_at(t, 1, 2.5, feet);
+    for (std::size_t k = 0; k < count; ++k) {
+      const FootMotion alone = ground->foot(t[k], 1, 2.5);
+      CHECK(feet[k].height == alone.height);
+      CHECK(feet[k].velocity == alone.velocity);
+    }
+  }
+}
+
 TEST_CASE("chirps and bump: TC-9.3") {
   const GroundPointer linear = make_ground("chirp", 1),
                       exponential = make_ground("exponential_chirp", 1);

@@ -62,6 +62,7 @@ class DamperState {
   double speed(const DamperInput& input) const noexcept {
     return damper_->at_damper(input).velocity;
   }
+  const MountedDamper& mounted() const noexcept { return *damper_; }
   const DamperModel& model() const noexcept { return *damper_->model; }
   std::span<const double> model_state() const noexcept { return state_; }
   void put_model_state(const double* state) noexcept {

@@ -6,6 +6,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/laws/large_scale_bouc_wen.h"
 #include "dashpot/damper/laws/modified_bouc_wen.h"
+#include "dashpot/damper/laws/viscous_dahl.h"
 
 namespace dashpot {
 namespace {
@@ -16,6 +17,10 @@ LoopShape<double> shape_of(const P& p) {
   return {z_max, p.A / z_max, p.gamma / (p.gamma + p.beta), p.n};
 }
 LoopShape<double> shape_of(const NormalisedBoucWen& p) { return {1, p.rho, p.sigma, p.n}; }
+
+// Dahl's w' = rho (v - |v| w) is a normalised Bouc-Wen's with n = 1 and sigma = 1.
+LoopShape<double> shape_of(const Dahl& p) { return {1, p.rho, 1, 1}; }
+LoopShape<double> shape_of(const ViscousDahl& p) { return {1, p.rho, 1, 1}; }
 
 /// The loop of a law with parameters P, in table order.
 template <class P>
@@ -34,9 +39,11 @@ struct KnownLoop {
 
 constexpr KnownLoop kLoops[] = {
     {"bouc_wen", 0, false, {"A", "gamma", "beta", "n"}, shape_from<BoucWen>},
+    {"dahl", 0, false, {"rho"}, shape_from<Dahl>},
     {"large_scale_bouc_wen", 0, false, {"A", "gamma", "beta", "n"}, shape_from<LargeScaleBoucWen>},
     {"modified_bouc_wen", 1, true, {"A", "gamma", "beta", "n"}, shape_from<ModifiedBoucWen>},
     {"normalised_bouc_wen", 0, false, {"rho", "sigma", "n"}, shape_from<NormalisedBoucWen>},
+    {"viscous_dahl", 0, false, {"rho"}, shape_from<ViscousDahl>},
 };
 
 bool follows_current(const Dependence& parameters, std::size_t k) {

@@ -74,8 +74,20 @@ typedef double Places __attribute__((vector_size(kTogether * sizeof(double))));
       __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7), u);
 }
 
+/// Heights and rates at these places, several side by side.
+[[gnu::always_inline]] inline void motions_at(const TrackPoints& track, const int* points,
+                                              const double* shares, std::span<FootMotion> out) {
+  const int count = static_cast<int>(out.size());
+  int n = 0;
+  for (; n + kTogether <= count; n += kTogether) {
+    const auto at = cubics_at(track.z, points + n, shares + n);
+    for (int k = 0; k < kTogether; ++k) out[n + k] = {at.height[k], track.per_second * at.slope[k]};
+  }
+  for (; n < count; ++n) out[n] = motion_at(track, {points[n], shares[n]});
+}
+
 /// Heights and rates at places begin, begin + step, ... in points. Places are found first and
-/// heights then, several side by side.
+/// heights then.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
 [[gnu::target_clones("default", "avx2", "avx512f")]]
@@ -87,21 +99,34 @@ void pass_over(const TrackPoints& track, double begin, double step, std::span<Fo
   for (std::size_t first = 0; first < out.size(); first += kChunk) {
     const std::span<FootMotion> some =
         out.subspan(first, std::min<std::size_t>(kChunk, out.size() - first));
-    const int count = static_cast<int>(some.size());
     const double from = begin + step * static_cast<double>(first);
     for (int n = 0; n < kChunk; ++n) {
       const TrackPlace place = place_at(track, from + step * n);
       points[n] = place.point;
       shares[n] = place.share;
     }
+    motions_at(track, points, shares, some);
+  }
+}
 
-    int n = 0;
-    for (; n + kTogether <= count; n += kTogether) {
-      const auto at = cubics_at(track.z, points + n, shares + n);
-      for (int k = 0; k < kTogether; ++k)
-        some[n + k] = {at.height[k], track.per_second * at.slope[k]};
+/// The same where `behind` points less than the way that these instants, s, lead to.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void meet_at(const TrackPoints& track, std::span<const double> t, double behind,
+             std::span<FootMotion> out) {
+  constexpr std::size_t kChunk = 8;
+  int points[kChunk];
+  double shares[kChunk];
+  for (std::size_t first = 0; first < out.size(); first += kChunk) {
+    const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
+    for (std::size_t n = 0; n < some.size(); ++n) {
+      const TrackPlace place = place_at(track, track.per_second * t[first + n] - behind);
+      points[n] = place.point;
+      shares[n] = place.share;
     }
-    for (; n < count; ++n) some[n] = motion_at(track, {points[n], shares[n]});
+    motions_at(track, points, shares, some);
   }
 }
 
@@ -128,6 +153,10 @@ class DrivenRoad final : public GroundMotion {
   void feet(double t, double step, std::size_t track, double behind,
             std::span<FootMotion> out) const noexcept override {
     pass_over(track_points(track), points_at(t, behind), points_per_second_ * step, out);
+  }
+  void feet_at(std::span<const double> t, std::size_t track, double behind,
+               std::span<FootMotion> out) const noexcept override {
+    meet_at(track_points(track), t, behind / profile_.spacing, out);
   }
 
  private:

@@ -43,12 +43,11 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   }
 }
 
-double PlantForces::tyre_load(std::size_t tyre, double t,
+double PlantForces::tyre_load(std::size_t tyre, const FootMotion& ground,
                               std::span<const double> x) const noexcept {
   // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
   // road's push, which rounds differently.
   const Tyre& w = plant_.tyres[tyre];
-  const FootMotion ground = foot(tyre, t);
   const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +
                       w.damping * (ground.velocity - along(w.row, x.data() + plant_.size()));
   return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
@@ -60,7 +59,7 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
   for (std::size_t s = 0; s < plant_.struts.size(); ++s)
     for (std::size_t k = 0; k < g.size(); ++k) g[k] -= plant_.struts[s].row[k] * strut_forces[s];
   for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
-    const double pushed = push(w, t, x.data());
+    const double pushed = push(w, foot(w, t), x.data());
     for (std::size_t k = 0; k < g.size(); ++k) g[k] += plant_.tyres[w].row[k] * pushed;
   }
   if (shaken_.empty()) return;
@@ -71,12 +70,14 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
 void PlantForces::accelerate(double t, std::span<const double> x,
                              std::span<const double> strut_forces,
                              std::span<double> out) const noexcept {
-  accelerate(sizes_, t, x.data(), strut_forces.data(), out.data());
+  const auto foot_of = [&](std::size_t tyre) { return foot(tyre, t); };
+  accelerate(sizes_, t, x.data(), strut_forces.data(), foot_of, out.data());
 }
 
-void PlantForces::resting_place(double t, std::span<double> q) const noexcept {
+void PlantForces::resting_place(std::span<const FootMotion> feet,
+                                std::span<double> q) const noexcept {
   for (double& value : q) value = 0;
-  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) add_resting(w, foot(w, t).height, q);
+  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) add_resting(w, feet[w].height, q);
 }
 
 void PlantForces::resting_place(std::span<const double> heights,

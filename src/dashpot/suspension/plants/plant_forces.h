@@ -32,8 +32,11 @@ class PlantForces {
   /// Stops and friction of a strut, N.
   double strut_extra(std::size_t strut, const DamperInput& motion) const noexcept;
   FootMotion foot(std::size_t tyre, double t) const noexcept;
+  /// The same at several instants at once.
+  void feet(std::size_t tyre, std::span<const double> t, std::span<FootMotion> out) const noexcept;
   /// N, of the tyre on the road; 0 where contact is lost and tyres may lift.
-  double tyre_load(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+  double tyre_load(std::size_t tyre, const FootMotion& ground,
+                   std::span<const double> x) const noexcept;
 
   /// g of M q'' + C q' + K q = g, N: all forces that are not linear in x, with these of the struts.
   void add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
@@ -49,18 +52,28 @@ class PlantForces {
     else
       run(sizes_);
   }
-  /// The same as above for a caller that knows the sizes.
+  /// The same as above for a caller that knows the sizes, and has the road under the tyres at t:
+  /// foot_of(tyre).
   template <class Sizes>
   DamperInput strut_motion(Sizes sizes, std::size_t strut, double t, const double* x,
                            double current) const noexcept;
-  template <class Sizes>
+  template <class Sizes, class FootOf>
   void accelerate(Sizes sizes, double t, const double* x, const double* strut_forces,
-                  double* out) const noexcept;
-  /// Where the plant would rest on the ground as it is, q; or with the ground at these heights, m,
-  /// under its tyres.
-  void resting_place(double t, std::span<double> q) const noexcept;
+                  FootOf foot_of, double* out) const noexcept;
+  /// Where the plant would rest on the ground as it is under its tyres, q; or with the ground at
+  /// these heights, m.
+  void resting_place(std::span<const FootMotion> feet, std::span<double> q) const noexcept;
   void resting_place(std::span<const double> heights, std::span<double> q) const noexcept;
 
+  const PlantSizes& sizes() const { return sizes_; }
+  /// Whether it is a quarter car on a road, without friction, whose tyre never lifts.
+  bool is_plain_quarter_car() const {
+    return is_quarter_car_ && shaken_.empty() && !plant_.tyres_may_lift &&
+           !plant_.struts[0].track && !(plant_.struts[0].friction > 0);
+  }
+  const Plant& plant() const { return plant_; }
+  const StrutResistance<double>& resistance(std::size_t strut) const { return resistances_[strut]; }
+  const TyreContact<double>& contact(std::size_t tyre) const { return contacts_[tyre]; }
   const LinearPlant& linear() const { return linear_; }
   /// q'' row by row: by x, by strut forces, by the road's pushes on the tyres.
   const std::vector<double>& by_state() const { return by_state_; }
@@ -76,7 +89,7 @@ class PlantForces {
   std::vector<StrutResistance<double>> resistances_;  ///< one per strut
   std::vector<TyreContact<double>> contacts_;         ///< one per tyre
   /// The push of the road on a wheel, N, without the pull of a tyre that has lifted.
-  double push(std::size_t tyre, double t, const double* x) const noexcept;
+  double push(std::size_t tyre, const FootMotion& ground, const double* x) const noexcept;
   /// Adds where the plant would rest with this tyre alone on this height, m.
   void add_resting(std::size_t tyre, double height, std::span<double> q) const noexcept;
 
@@ -107,9 +120,9 @@ DamperInput PlantForces::strut_motion(Sizes sizes, std::size_t strut, double t, 
   return motion;
 }
 
-template <class Sizes>
+template <class Sizes, class FootOf>
 void PlantForces::accelerate(Sizes sizes, double t, const double* x, const double* strut_forces,
-                             double* out) const noexcept {
+                             FootOf foot_of, double* out) const noexcept {
   const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
 
   // Row by row: shaking, state, strut forces.
@@ -124,15 +137,15 @@ void PlantForces::accelerate(Sizes sizes, double t, const double* x, const doubl
 
   // The tyres, whose push depends on the road and on the motion.
   for (std::size_t w = 0; w < sizes.tyres; ++w) {
-    const double pushed = push(w, t, x);
+    const double pushed = push(w, foot_of(w), x);
     for (std::size_t i = 0; i < sizes.coordinates; ++i)
       out[i] += by_tyre_[i * sizes.tyres + w] * pushed;
   }
 }
 
-inline double PlantForces::push(std::size_t which, double t, const double* x) const noexcept {
+inline double PlantForces::push(std::size_t which, const FootMotion& ground,
+                                const double* x) const noexcept {
   const TyreContact<double>& tyre = contacts_[which];
-  const FootMotion ground = foot(which, t);
   const double push = road_push(tyre, ground.height, ground.velocity);
   if (!plant_.tyres_may_lift) return push;
 
@@ -143,6 +156,11 @@ inline double PlantForces::push(std::size_t which, double t, const double* x) co
 
 inline FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
   return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
+}
+
+inline void PlantForces::feet(std::size_t tyre, std::span<const double> t,
+                              std::span<FootMotion> out) const noexcept {
+  ground_.feet_at(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind, out);
 }
 
 inline double PlantForces::strut_extra(std::size_t strut,

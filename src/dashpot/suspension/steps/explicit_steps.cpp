@@ -15,6 +15,9 @@ constexpr std::size_t kStages = Method::kStages;
 
 /// Between refresh() and the end of a stretch the first slope is that of y_: the method's last
 /// stage gives it (DormandPrince).
+///
+/// kSize: of y where the equations are those of a RoadCar, whose step is straight code; 0: any.
+template <std::size_t kSize>
 class ExplicitSteps final : public StepMethod {
  public:
   ExplicitSteps(const PlantForces& forces, const IntegratorOptions& options,
@@ -22,10 +25,11 @@ class ExplicitSteps final : public StepMethod {
       : equations_(forces, start),
         options_(options),
         size_(equations_.size()),
-        y_(size_),
-        trial_(size_),
-        end_(size_),
-        k_(kStages * size_) {
+        y_(row(size_)),
+        trial_(row(size_)),
+        end_(row(size_)),
+        off_(row(size_)) {
+    for (Row& slope : k_) slope = row(size_);
     equations_.follow_loops(start, options);
     turns_.resize(equations_.loops().size());
   }
@@ -33,7 +37,7 @@ class ExplicitSteps final : public StepMethod {
   void refresh(PlantState& state) override {
     equations_.read(state, y_.data());
     begin(0);
-    equations_.write_forces(k_.data(), state);
+    equations_.write_forces(k_[0].data(), state);
   }
 
   bool advance(PlantState& state, double end) override {
@@ -77,54 +81,112 @@ class ExplicitSteps final : public StepMethod {
       // The step is taken: its last slope is the first of the next one.
       ++counts_.steps;
       std::swap(y_, end_);
-      std::copy_n(&k_[(kStages - 1) * size_], size_, k_.begin());
+      std::swap(k_.front(), k_.back());
       done = last ? length : done + h;
       if (!turns_.empty()) take_turns(done, length, true);
     }
-    equations_.write(y_.data(), k_.data(), end, state);
+    equations_.write(y_.data(), k_[0].data(), end, state);
     return true;
   }
 
  private:
+  using Row = std::conditional_t<(kSize > 0), std::array<double, kSize>, std::vector<double>>;
+  static Row row(std::size_t size) {
+    if constexpr (kSize > 0)
+      return {};
+    else
+      return Row(size);
+  }
+
   /// The first slope, at y_.
   void begin(double done) {
-    slope(0, done, y_);
-    for (std::size_t l = 0; l < turns_.size(); ++l) turns_[l].at_start(equations_.loops()[l]);
-  }
-  void slope(std::size_t stage, double after, const std::vector<double>& y) {
     ++counts_.evaluations;
-    equations_.rates(after, y.data(), &k_[stage * size_]);
+    equations_.rates(done, y_.data(), k_[0].data());
+    for (std::size_t l = 0; l < turns_.size(); ++l) turns_[l].at_start(equations_.loops()[l]);
   }
   /// out = y + h (weights . slopes of the stages before).
   template <std::size_t... kBefore>
-  void sum(std::vector<double>& out, double h, const double* weights,
-           std::index_sequence<kBefore...>) const {
-    const double* k = k_.data();
-    const std::size_t n = size_;
-    for (std::size_t i = 0; i < n; ++i)
-      out[i] = y_[i] + h * ((weights[kBefore] * k[kBefore * n + i]) + ...);
+  void sum(Row& out, double h, const double* weights, std::index_sequence<kBefore...>) const {
+    for (std::size_t i = 0; i < size_; ++i)
+      out[i] = y_[i] + h * ((weights[kBefore] * k_[kBefore][i]) + ...);
   }
+  /// Which of the instants ahead a stage stands at: the last two at the end of the step.
+  static constexpr std::size_t instant_of(std::size_t stage) {
+    return std::min(stage, PlantEquations::kInstants) - 1;
+  }
+  static_assert(PlantEquations::kInstants == kStages - 2 &&
+                Method::kAt[kStages - 1] == Method::kAt[kStages - 2]);
   template <std::size_t kStage>
-  void stage(double done, double h, std::vector<double>& at) {
+  void stage(double h, Row& at) {
     sum(at, h, Method::kFrom[kStage], std::make_index_sequence<kStage>());
-    slope(kStage, done + Method::kAt[kStage] * h, at);
-    if constexpr (kStage == kEarly || kStage == kLate)
-      for (std::size_t l = 0; l < turns_.size(); ++l)
-        (kStage == kEarly ? turns_[l].early : turns_[l].late) = equations_.loops()[l].along;
+    equations_.rates_at(instant_of(kStage), at.data(), k_[kStage].data());
+    if constexpr (kStage == kEarly || kStage == kLate) note_speeds(kStage);
+  }
+  /// Of each loop, at a stage that meet_turns() wants to know of.
+  void note_speeds(std::size_t stage) {
+    for (std::size_t l = 0; l < turns_.size(); ++l)
+      (stage == kEarly ? turns_[l].early : turns_[l].late) = equations_.loops()[l].along;
   }
   /// end_ and the slope there, from y_ at `done` s in the stretch.
   void attempt(double done, double h) {
-    stage<1>(done, h, trial_);
-    stage<2>(done, h, trial_);
-    stage<3>(done, h, trial_);
-    stage<4>(done, h, trial_);
-    stage<5>(done, h, trial_);
-    stage<6>(done, h, end_);
+    PlantEquations::Instants after;
+    for (std::size_t k = 0; k < after.size(); ++k) after[k] = done + Method::kAt[k + 1] * h;
+    equations_.look_ahead(after);
+    counts_.evaluations += kStages - 1;
+    if constexpr (kSize > 0) {
+      const RoadCar& car = *equations_.road_car();
+      turns_.empty() ? attempt_straight<false>(car, h) : attempt_straight<true>(car, h);
+    } else {
+      stage<1>(h, trial_);
+      stage<2>(h, trial_);
+      stage<3>(h, trial_);
+      stage<4>(h, trial_);
+      stage<5>(h, trial_);
+      stage<6>(h, end_);
+      for (std::size_t i = 0; i < size_; ++i) off_[i] = off(k_, i);
+    }
+  }
+  /// The same of a RoadCar, whose slopes stay in registers from stage to stage.
+  template <bool kFollows>
+  void attempt_straight(const RoadCar& car, double h) {
+    double k[kStages][kSize], y[kSize], at[kSize];
+    RoadCar::Forces forces;
+    for (std::size_t i = 0; i < kSize; ++i) {
+      y[i] = y_[i];
+      k[0][i] = k_[0][i];
+    }
+
+    // Stage by stage: there from the slopes before, and the slope there.
+    const auto stage = [&]<std::size_t... kBefore>(
+                           std::index_sequence<kBefore...>) __attribute__((always_inline)) {
+      constexpr std::size_t kStage = sizeof...(kBefore);
+      const double* weights = Method::kFrom[kStage];
+      for (std::size_t i = 0; i < kSize; ++i)
+        at[i] = y[i] + h * ((weights[kBefore] * k[kBefore][i]) + ...);
+      forces = car.rates<kSize, kFollows>(equations_.law_parameters(instant_of(kStage)),
+                                          equations_.foot(instant_of(kStage)), at, k[kStage]);
+      if constexpr (kFollows && (kStage == kEarly || kStage == kLate)) note_speeds(kStage);
+    };
+    stage(std::make_index_sequence<1>());
+    stage(std::make_index_sequence<2>());
+    stage(std::make_index_sequence<3>());
+    stage(std::make_index_sequence<4>());
+    stage(std::make_index_sequence<5>());
+    stage(std::make_index_sequence<6>());
+
+    // Its end, and what the next step wants to know.
+    for (std::size_t i = 0; i < kSize; ++i) {
+      end_[i] = at[i];
+      k_[kStages - 1][i] = k[kStages - 1][i];
+      off_[i] = off(k, i);
+    }
+    equations_.put_forces(forces);
   }
   /// |y_5 - y_4| / h of component i.
-  double off(std::size_t i) const {
+  template <class Slopes>
+  [[gnu::always_inline]] static inline double off(const Slopes& k, std::size_t i) {
     double sum = 0;
-    for (std::size_t s = 0; s < kStages; ++s) sum += Method::kError[s] * k_[s * size_ + i];
+    for (std::size_t s = 0; s < kStages; ++s) sum += Method::kError[s] * k[s][i];
     return std::abs(sum);
   }
   /// Error of the step, in tolerances; that of a loop as one of its z.
@@ -139,13 +201,13 @@ class ExplicitSteps final : public StepMethod {
         ends, options_,
         [&](std::size_t k) {
           const std::size_t l = loop_at(k);
-          if (l == turns_.size()) return h * off(k);
+          if (l == turns_.size()) return h * off_[k];
           const FollowedLoop& loop = equations_.loops()[l];
-          return loop.path.error(h * off(k), turns_[l].steep, loop.steep);
+          return loop.path.error(h * off_[k], turns_[l].steep, loop.steep);
         },
         [&](std::size_t k) {
           const std::size_t l = loop_at(k);
-          const double size = ends.size(k) + std::abs(h * k_[k]);
+          const double size = ends.size(k) + std::abs(h * k_[0][k]);
           return l == turns_.size() ? size : equations_.loops()[l].path.size(size);
         });
   }
@@ -198,10 +260,10 @@ class ExplicitSteps final : public StepMethod {
   PlantEquations equations_;
   IntegratorOptions options_;
   std::size_t size_;
-  std::vector<double> y_, trial_, end_;
-  std::vector<double> k_;    ///< slopes, stage by stage; the first is that of y_
-  std::vector<Turn> turns_;  ///< one per loop of the equations
-  double next_ = 0;          ///< s, the length to try next
+  Row y_, trial_, end_, off_;   ///< off_: |y_5 - y_4| / h of the last try
+  std::array<Row, kStages> k_;  ///< slopes, stage by stage; the first is that of y_
+  std::vector<Turn> turns_;     ///< one per loop of the equations
+  double next_ = 0;             ///< s, the length to try next
 };
 
 }  // namespace
@@ -209,7 +271,18 @@ class ExplicitSteps final : public StepMethod {
 std::unique_ptr<StepMethod> make_explicit_steps(const PlantForces& forces,
                                                 const IntegratorOptions& options,
                                                 const PlantState& start) {
-  return std::make_unique<ExplicitSteps>(forces, options, start);
+  // A law that ships has two states at most.
+  const PlantEquations equations(forces, start);
+  switch (equations.road_car() ? equations.size() : 0) {
+    case 4:
+      return std::make_unique<ExplicitSteps<4>>(forces, options, start);
+    case 5:
+      return std::make_unique<ExplicitSteps<5>>(forces, options, start);
+    case 6:
+      return std::make_unique<ExplicitSteps<6>>(forces, options, start);
+    default:
+      return std::make_unique<ExplicitSteps<0>>(forces, options, start);
+  }
 }
 
 }  // namespace dashpot

@@ -21,6 +21,24 @@ PlantEquations::PlantEquations(const PlantForces& forces, const PlantState& star
     laws_.push_back({law && law->lag_rate() == 0 ? law : nullptr});
   }
   states_.resize(size_ - start.x.size());
+  feet_.resize(forces.sizes().tyres * kInstants);
+
+  // The numbers of a RoadCar.
+  is_road_car_ = forces.is_plain_quarter_car() && laws_[0].law;
+  if (!is_road_car_) return;
+  const auto copy = [](const std::vector<double>& numbers, double* to) {
+    std::copy(numbers.begin(), numbers.end(), to);
+  };
+  copy(forces.plant().struts[0].row, road_car_.row);
+  copy(forces.by_state(), road_car_.by_state[0]);
+  copy(forces.by_strut(), road_car_.by_strut);
+  copy(forces.by_tyre(), road_car_.by_tyre);
+  road_car_.stops = forces.resistance(0);
+  road_car_.tyre = forces.contact(0);
+  road_car_.ratio = start.dampers[0].mounted().motion_ratio;
+  road_car_.factor = start.dampers[0].mounted().force_factor;
+  road_car_.law = laws_[0].law;
+  road_car_.states = states_.data();
 }
 
 void PlantEquations::follow_loops(const PlantState& start, const IntegratorOptions& options) {
@@ -34,6 +52,7 @@ void PlantEquations::follow_loops(const PlantState& start, const IntegratorOptio
     }
     first += start.dampers[s].model_state().size();
   }
+  if (!loops_.empty()) road_car_.loop = loops_.data();
 }
 
 void PlantEquations::read(const PlantState& state, double* y) {
@@ -57,11 +76,13 @@ void PlantEquations::read(const PlantState& state, double* y) {
 }
 
 void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
-  forces_.with_sizes([&](auto sizes) { rates_of(sizes, after, y, dy); });
+  const auto foot_of = [&](std::size_t tyre) { return forces_.foot(tyre, state_->time + after); };
+  forces_.with_sizes([&](auto sizes) { rates_of(sizes, after, y, dy, foot_of); });
 }
 
-template <class Sizes>
-void PlantEquations::rates_of(Sizes sizes, double after, const double* y, double* dy) noexcept {
+template <class Sizes, class FootOf>
+void PlantEquations::rates_of(Sizes sizes, double after, const double* y, double* dy,
+                              FootOf foot_of) noexcept {
   const std::size_t n = sizes.coordinates;
   const double t = state_->time + after;
   double* dz = dy + 2 * n;
@@ -101,7 +122,23 @@ void PlantEquations::rates_of(Sizes sizes, double after, const double* y, double
 
   // The motion under these forces.
   std::copy_n(y + n, n, dy);
-  forces_.accelerate(sizes, t, y, strut_forces_.data(), dy + n);
+  forces_.accelerate(sizes, t, y, strut_forces_.data(), foot_of, dy + n);
+}
+
+void PlantEquations::rates_at(std::size_t instant, const double* y, double* dy) noexcept {
+  const auto foot_of = [&](std::size_t tyre) { return feet_[tyre * kInstants + instant]; };
+  forces_.with_sizes([&](auto sizes) { rates_of(sizes, after_[instant], y, dy, foot_of); });
+}
+
+void PlantEquations::look_ahead(const Instants& after) noexcept {
+  after_ = after;
+  std::array<double, kInstants> times;
+  for (std::size_t k = 0; k < kInstants; ++k) times[k] = state_->time + after[k];
+  for (std::size_t w = 0; w < forces_.sizes().tyres; ++w)
+    forces_.feet(w, times, std::span(feet_).subspan(w * kInstants, kInstants));
+  if (!is_road_car_ || steady_[0]) return;
+  for (std::size_t k = 0; k < kInstants; ++k)
+    road_car_.law->parameters_at(state_->dampers[0].current_after(after[k]), ahead_[k].data());
 }
 
 void PlantEquations::write_forces(const double* dy, PlantState& state) const {

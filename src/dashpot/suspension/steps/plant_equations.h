@@ -2,19 +2,10 @@
 #include <array>
 
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/suspension/dampers/law_loop.h"
+#include "dashpot/suspension/steps/road_car.h"
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
-
-/// A hysteresis loop among the dampers' states.
-struct FollowedLoop {
-  LoopPath<LawLoopKind> path;
-  std::size_t damper, place;           ///< the number of the damper, and the place of z in y
-  std::optional<std::size_t> series;   ///< the place in y whose rate the loop's speed is less by
-  double r = 0, z = NAN;               ///< as last written into a state
-  double m = 0, steep = 1, along = 0;  ///< at the last call of rates(): LoopPath's
-};
 
 /// A damper that is a law without a lag: its parameters stay as they are while its current does.
 struct SteadyLaw {
@@ -30,6 +21,9 @@ struct SteadyLaw {
 class PlantEquations {
  public:
   PlantEquations(const PlantForces& forces, const PlantState& start);
+  PlantEquations(const PlantEquations&) = delete;
+  PlantEquations& operator=(const PlantEquations&) = delete;
+  ~PlantEquations() = default;
   /// Follows the loops of all dampers, with the error of these options.
   void follow_loops(const PlantState& start, const IntegratorOptions& options);
   std::vector<FollowedLoop>& loops() noexcept { return loops_; }
@@ -41,15 +35,33 @@ class PlantEquations {
   void read(const PlantState& state, double* y);
   /// f at `after` seconds from there. Allocates nothing.
   void rates(double after, const double* y, double* dy) noexcept;
+  /// Instants of a step, s after there, whose road and currents are found at once.
+  static constexpr std::size_t kInstants = 5;
+  using Instants = std::array<double, kInstants>;
+  void look_ahead(const Instants& after) noexcept;
+  /// rates() at one of them.
+  void rates_at(std::size_t instant, const double* y, double* dy) noexcept;
+  /// The equations as those of a RoadCar; null where they are others.
+  const RoadCar* road_car() const noexcept { return is_road_car_ ? &road_car_ : nullptr; }
+  /// Of a RoadCar: the road under its tyre and the parameters of its law at an instant.
+  const FootMotion& foot(std::size_t instant) const noexcept { return feet_[instant]; }
+  const double* law_parameters(std::size_t instant) const noexcept {
+    return steady_[0] ? laws_[0].parameters.data() : ahead_[instant].data();
+  }
+  /// Its forces at the end of a step, as the last call of rates().
+  void put_forces(const RoadCar::Forces& forces) noexcept {
+    damper_forces_[0] = forces.damper;
+    strut_forces_[0] = forces.strut;
+  }
   /// Brings the state to `end`, s, where it is y; dy must come from the last call of rates(), at y.
   void write(const double* y, const double* dy, double end, PlantState& state);
   /// Forces and accelerations at the last call of rates(), which gave dy, into the state.
   void write_forces(const double* dy, PlantState& state) const;
 
  private:
-  /// rates() of a plant with these sizes.
-  template <class Sizes>
-  void rates_of(Sizes sizes, double after, const double* y, double* dy) noexcept;
+  /// rates() of a plant with these sizes, where foot_of(tyre) is the road.
+  template <class Sizes, class FootOf>
+  void rates_of(Sizes sizes, double after, const double* y, double* dy, FootOf foot_of) noexcept;
 
   const PlantForces& forces_;
   std::size_t coordinates_, size_;
@@ -58,7 +70,12 @@ class PlantEquations {
   std::vector<char> steady_;     ///< whether a coil's current stays as it is
   std::vector<SteadyLaw> laws_;  ///< one per damper
   std::vector<FollowedLoop> loops_;
-  std::vector<double> states_;  ///< of the dampers at the last call of rates(), loops by their z
+  std::vector<double> states_;    ///< of the dampers at the last call of rates(), loops by their z
+  Instants after_{};              ///< the instants ahead
+  std::vector<FootMotion> feet_;  ///< there, tyre by tyre
+  bool is_road_car_ = false;
+  RoadCar road_car_{};
+  std::array<std::array<double, kMaxParams>, kInstants> ahead_{};  ///< its parameters there
 };
 
 }  // namespace dashpot

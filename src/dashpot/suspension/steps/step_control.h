@@ -48,7 +48,13 @@ struct StepEnds {
 template <class Error, class Size>
 double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& options, Error error,
                            Size size_of) {
-  const auto worse = [](double a, double b) { return b > a || std::isnan(b) ? b : a; };
+  // Which error is the greatest is chance, so no branch hangs on it; one that is not a number shows
+  // in their sum.
+  double sum = 0;
+  const auto worse = [&](double a, double b) {
+    sum += b;
+    return b > a ? b : a;
+  };
   const auto of = [&](double off, double size) {
     return off / (options.absolute_tolerance + options.relative_tolerance * size);
   };
@@ -68,7 +74,7 @@ double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& option
   // States of the dampers.
   for (std::size_t k = 2 * n; k < ends.from.size(); ++k)
     greatest = worse(greatest, of(error(k), size_of(k)));
-  return greatest;
+  return std::isnan(sum) ? sum : greatest;
 }
 
 }  // namespace dashpot
