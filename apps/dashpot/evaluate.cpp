@@ -53,6 +53,8 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   ranked.band = std::move(file.interval);
   ranked.left_out = evaluation;
   for (RecordResult& r : ranked.left_out.records) r.left_out = true;
+
+  // What its fit has seen is no judgement.
   Ranking ranking;
   ranking.seen = seen_records(file.provenance, dataset);
   ranking.folds = {"all records, nothing fitted"};
@@ -74,8 +76,10 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   if (const std::size_t changed = settings.keep_inertia ? 0 : take_off_inertia(file, dataset))
     console.note("the model was fitted to forces without the inertia of " +
                  format_number(file.moving_mass, 3) +
-                 " kg between load cell and damper: it is taken off " + counted(changed, "record") +
+                 " kg between load cell and damper: it is taken off " + std::to_string(changed) +
+                 " of " + counted(dataset.records.size(), "record") +
                  " here, too (not so with --keep-inertia)");
+
   const EvaluateOptions options{.offset = offset_mode(settings.force_offset, "--force-offset"),
                                 .known_offsets = {},
                                 .band = file.interval,

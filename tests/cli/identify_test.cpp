@@ -147,6 +147,28 @@ TEST_CASE("identify: its models run in the report's page") {
   CHECK(contains(page, "\"title\":\"Beyond the records\""));
 }
 
+TEST_CASE("evaluate: takes off the inertia that the model's fit took off, says so, or keeps it") {
+  const TemporaryFolder folder;
+  std::string text = read_file(small_results() / "models/bingham.json");
+  const std::size_t at = text.find("\"sample_time\"");
+  REQUIRE(at != std::string::npos);
+  const fs::path model = folder.write("m.json", text.insert(at, "\"moving_mass_kg\": 20, "));
+  const std::string command = "evaluate " + model.string() + " " + small_campaign().string();
+  const auto rmse = [](const std::string& words) {
+    const Value result = parse_json(stdout_of_dashpot(words + " --json").output, "evaluate --json");
+    return result.find("pooled")->find("rmse_N")->as_number();
+  };
+
+  CHECK(contains(run_dashpot(command).output, "without the inertia of 20 kg"));
+  CHECK_FALSE(contains(run_dashpot(command + " --keep-inertia").output, "inertia of 20 kg"));
+
+  // The campaign has no such mass, so that taking it off adds an error.
+  const double plain = rmse("evaluate " + (small_results() / "models/bingham.json").string() + " " +
+                            small_campaign().string());
+  CHECK(rmse(command + " --keep-inertia") == plain);
+  CHECK(rmse(command) > 1.01 * plain);
+}
+
 TEST_CASE("evaluate: says where recordings leave the model's range") {
   const TemporaryFolder folder;
   const std::string data = (folder.path() / "fast").string();

@@ -54,6 +54,7 @@ class Numbers(InFolder):
         left = columns["residual [N]"]
         np.testing.assert_allclose(left, columns["measured [N]"] - columns["modelled [N]"], atol=1e-9)
         report = model.evaluate(bench())
+        self.assertEqual(model.evaluate(bench(), keep_inertia=True), report)  # none was taken off
         self.assertAlmostEqual(np.sqrt(np.mean(left**2)), report["records"][1]["metrics"]["rmse_N"], places=3)
         if importlib.util.find_spec("matplotlib"):
             dashpot.plot.traces(traces).savefig(self.folder / "fit.png")

@@ -244,7 +244,10 @@ void bind_model(py::module_& module) {
           arg("recordings"),
           "The figures of `dashpot evaluate --json`, as a dict. recordings: Recordings, or paths.\n"
           "force_offset: \"record\" (each recording has a free force zero) or \"none\"; threads: 0 "
-          "for all.")
+          "for all.\n"
+          "keep_inertia: leave the force as recorded where the model was fitted to forces without "
+          "the inertia\n"
+          "between load cell and damper, which is taken off here, too.")
       .def(
           "export",
           [](const py::object& self, const py::object& to, const py::object& folder,

@@ -188,6 +188,8 @@ RecordingNoise::Shares RecordingNoise::shares() const {
     whitened_gains(l, gains);
     std::copy_n(&beyond_[l * sensors_], sensors_, white.data());
     solve_lower(&factors_[l * sensors_ * sensors_], sensors_, white.data());
+
+    // How much of what the line shows lies along each source, and how much should.
     for (std::size_t j = 0; j < sources(); ++j) {
       const std::size_t g = j < sensors_ ? j : sensors_ + gain_of(j);
       Complex along = 0;
@@ -209,6 +211,8 @@ std::vector<double> RecordingNoise::information() const {
   std::vector<Complex> gains;
   for (std::size_t l = 0; l < lines_; ++l) {
     whitened_gains(l, gains);
+
+    // Of each pair, by the logarithms of their variances.
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {
         const std::size_t a = i < sensors_ ? i : sensors_ + gain_of(i),

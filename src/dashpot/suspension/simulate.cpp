@@ -54,6 +54,8 @@ class Simulation {
         road_(setting.plant.tyres.size()),
         controller_state_(setting.controller ? setting.controller->state_size() : 0) {
     if (setting.controller) setting.controller->reset(controller_state_);
+
+    // Instants at which the road jumps under some tyre.
     for (const Tyre& tyre : setting.plant.tyres)
       for (const double jump : setting.ground.jumps(tyre.behind)) jumps_.push_back(jump);
     std::sort(jumps_.begin(), jumps_.end());

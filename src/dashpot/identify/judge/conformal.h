@@ -49,7 +49,7 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training);
 /// none for one that diverged.
 using ErrorGroups = std::vector<std::vector<double>>;
 ErrorGroups relative_errors(const std::vector<RecordResult>& left_out, const ForceBand& shape);
-
+/// The same of one part, with one group at most.
 ErrorGroups relative_errors(const LeftOutPart& part, const ForceBand& shape);
 
 /// The least factor q with mean over parts, and in them over groups, of (errors <= q) / (size + 1)

@@ -290,6 +290,7 @@ class RankingRun {
         ++kept_;
         return std::move(*kept);
       }
+
     FitReport report;
     try {
       IdentifyOptions options = options_;
@@ -563,7 +564,8 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
   file.model = ranked.fit.model->with_offset(0);
   file.drive_unit = dataset.drive_unit;
 
-  // Domain and sample time come from the records of the fit.
+  // Domain, sample time and mass come from the records of the fit; where these differ in one of the
+  // last two, the file states none.
   std::vector<Record> used;
   std::vector<std::string> names;
   for (const RecordResult& r : ranked.training.records) {

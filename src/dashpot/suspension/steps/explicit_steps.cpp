@@ -133,6 +133,8 @@ class ExplicitSteps final : public StepMethod {
     for (std::size_t k = 0; k < after.size(); ++k) after[k] = done + Method::kAt[k + 1] * h;
     equations_.look_ahead(after);
     counts_.evaluations += kStages - 1;
+
+    // A RoadCar's stages are straight code.
     if constexpr (kSize > 0) {
       const RoadCar& car = *equations_.road_car();
       turns_.empty() ? attempt_straight<false>(car, h) : attempt_straight<true>(car, h);
@@ -197,6 +199,8 @@ class ExplicitSteps final : public StepMethod {
       while (l < turns_.size() && equations_.loops()[l].place != k) ++l;
       return l;
     };
+
+    // The error and the size of each component.
     return error_in_tolerances(
         ends, options_,
         [&](std::size_t k) {
