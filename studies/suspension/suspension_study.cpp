@@ -172,7 +172,10 @@ std::vector<ClairvoyantBound> front_of(const SuspensionStudy& study, const Groun
                                        const ForceRange& range, const RideSquares& reference,
                                        double duration) {
   return front_of_ride(study.plant, ground, range, reference,
-                       {.duration = duration, .starts = {}, .threads = study.options.threads});
+                       {.duration = duration,
+                        .starts = {},
+                        .threads = study.options.threads,
+                        .monitor = {.on_progress = {}, .stop = study.options.monitor.stop}});
 }
 
 void add_bounds(SuspensionStudy& study, const GroundMotion& road) {

@@ -104,7 +104,14 @@ TEST_CASE("with a bound the page shows what is possible, and no controller is be
   options.frequencies = {8};
   options.road_duration = 2;
   options.bound = true;
+  std::vector<double> shares;  // of the bound, as they were told
+  options.monitor.on_progress = [&](const Progress& now) {
+    if (now.stage == "bound what is possible") shares.push_back(now.fraction);
+  };
   const RideStudy study = study_ride(options);
+  CHECK(shares.size() >= 3 * study.front.size());  // the optimum, the limits, the end
+  CHECK(std::ranges::is_sorted(shares));
+  CHECK(shares.back() == 1);
   const Plant& plant = study.passive.road.vehicle->set.plant;
   REQUIRE(study.front.size() == 5);
   for (const ClairvoyantBound& best : study.front) {

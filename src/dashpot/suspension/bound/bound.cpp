@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "dashpot/base/parallel.h"
@@ -12,6 +13,8 @@
 
 namespace dashpot {
 namespace {
+
+constexpr const char* kStage = "bound what is possible";
 
 class SharePlayer final : public Controller {
  public:
@@ -166,6 +169,8 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
   ClairvoyantBound found{.index = index, .squares = {}, .shares = {}};
 
   // The optimum: demands that the search finds, simulated.
+  const auto report = [&](double share) { options.monitor.report(kStage, share); };
+  report(0);
   const Course course = best_course(car, range, index, options.starts);
   found.shares = course.shares;
   const Trace best = simulated(plant, ground, range, found.shares, options);
@@ -186,8 +191,11 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
   // to seek them.
   const SampledPlant coarse(sprung, ground, options.duration, options.search_step);
   const MotionSquares motion = motion_under(car, range, found.shares);
+  constexpr double kShareOfOptimum = 0.1, kShareOfWay = 0.45;  // of the time, roughly
+  double share = kShareOfOptimum;
   std::optional<double> least;
   for (const RelaxationStart start : {RelaxationStart::Staying, RelaxationStart::Short}) {
+    report(std::exchange(share, share + kShareOfWay));
     const Relaxation relaxed =
         relax(coarse, range, index,
               {.start = start, .iterations = options.iterations, .size = course.value});
@@ -207,9 +215,21 @@ std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const Ground
                                                 const ForceRange& range,
                                                 const std::vector<RideIndex>& indices,
                                                 const BoundOptions& options) {
+  // How far each index is, and all of them; said by one thread at a time.
   std::vector<ClairvoyantBound> front(indices.size());
+  std::vector<double> shares(indices.size());
+  const auto say = [&](std::size_t k, double share) {
+    shares[k] = share;
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    options.monitor.on_progress({kStage, sum / static_cast<double>(shares.size())});
+  };
+
   parallel_for(indices.size(), options.threads, [&](std::size_t k) {
-    front[k] = clairvoyant_bound(plant, ground, range, indices[k], options);
+    BoundOptions own = options;
+    if (options.monitor.on_progress)
+      own.monitor.on_progress = [&, k](const Progress& now) { say(k, now.fraction); };
+    front[k] = clairvoyant_bound(plant, ground, range, indices[k], own);
+    own.monitor.report(kStage, 1);
   });
   return front;
 }

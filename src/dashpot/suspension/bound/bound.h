@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "dashpot/monitor.h"
 #include "dashpot/simulate.h"
 #include "dashpot/suspension/bound/force_range.h"
 #include "dashpot/suspension/bound/range_damper.h"
@@ -45,6 +46,7 @@ struct BoundOptions {
   std::vector<std::vector<double>>
       starts;  ///< shares per step that the optimum shall not fall behind
   int threads = 0;
+  Monitor monitor = {};
 };
 
 /// Bound and optimum of one index on one road.

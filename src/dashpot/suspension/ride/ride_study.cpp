@@ -194,7 +194,6 @@ constexpr double kMotionFactor = 2;
 void add_bound(RideStudy& study, const Vehicle& vehicle, const GroundMotion& road) {
   const Plant& plant = vehicle.set.plant;
   const RideStudyOptions& options = study.options;
-  options.monitor.report("bound what is possible", 0);
   const RideSquares reference = ride_squares(study.passive.road.trace, plant);
   StrutMotion ridden = greatest_motion(study);
   constexpr int kTries = 3;
@@ -202,9 +201,11 @@ void add_bound(RideStudy& study, const Vehicle& vehicle, const GroundMotion& roa
     const ForceRange range = possible_forces(
         vehicle, {kMotionFactor * ridden.travel, kMotionFactor * ridden.speed}, kBound);
     study.bounded = motion_of(range);
-    study.front = front_of_ride(
-        plant, road, range, reference,
-        {.duration = options.road_duration, .starts = {}, .threads = options.threads});
+    study.front = front_of_ride(plant, road, range, reference,
+                                {.duration = options.road_duration,
+                                 .starts = {},
+                                 .threads = options.threads,
+                                 .monitor = options.monitor});
     if (std::ranges::none_of(study.front, &ClairvoyantBound::leaves)) return;
 
     // Some optimum goes beyond the range, which then has to be wider.
