@@ -1,12 +1,14 @@
 // Prints the table "Is the best on inner folds the best outside?" of docs/accuracy.md.
 //
-//   bench_winners [--models A,B,...] [--epochs N] [TRUTH ...]
+//   bench_winners [--models A,B,...] [--epochs N] [--few N [--draws N]] [TRUTH ...]
 //
 // Dampers whose truth is known and of other structure than the models (studies/ride_rank) are
 // recorded on the virtual bench, with noise and drift, and with what the six here add: a driver
 // that lags, a sensor that lags. The models are ranked by motions of these recordings left out in
 // turn; then each is judged on what no ranking has seen: other motions, other currents, a current
 // that switches. --epochs: updates of the passive network's training, 1 600 unless told.
+// --few: so many of the twelve records at random, four times unless --draws says otherwise, and
+// judged on the rest of them as well: the second table.
 
 #include <algorithm>
 #include <array>
@@ -15,10 +17,12 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/error.h"
@@ -127,6 +131,62 @@ void print_case(const Case& one, const std::vector<Row>& rows) {
   std::fflush(stdout);
 }
 
+/// What a rule names, as a multiple of the least error that any of the models has there; geometric
+/// means of all draws.
+struct Regret {
+  double rest = 0, outside = 0;  ///< logarithms, summed
+  void add(double to_best_rest, double to_best_outside) {
+    // One that runs away counts as a thousandfold.
+    rest += std::log(std::min(to_best_rest, 1000.0));
+    outside += std::log(std::min(to_best_outside, 1000.0));
+  }
+};
+
+/// The records of a set in an order by chance: the first few of them, and the rest.
+std::pair<Dataset, Dataset> drawn(Dataset all, std::size_t few, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t k = all.records.size(); k > 1; --k)
+    std::swap(all.records[k - 1], all.records[random.index(k)]);
+  Dataset rest = all;
+  const auto end_of_few = static_cast<std::ptrdiff_t>(few);
+  all.records.erase(all.records.begin() + end_of_few, all.records.end());
+  rest.records.erase(rest.records.begin(), rest.records.begin() + end_of_few);
+  return {all, rest};
+}
+
+/// One line of the second table: what is named by few records, and what another rule would.
+void print_few(const Case& one, const DamperModel& truth, const std::vector<std::string>& models,
+               const IdentifyOptions& options, std::size_t few, std::size_t draws) {
+  const Dataset all = recorded(truth, one), there = outside(truth, one);
+  Regret first, passive;
+  for (std::size_t draw = 0; draw < draws; ++draw) {
+    const auto [inside, rest] = drawn(all, few, 100 * few + draw);
+    const Ranking ranking = rank(models, inside, default_leave_out(inside), options);
+
+    // What each model leaves of the rest, and of what came afterwards.
+    std::vector<double> of_rest, of_there;
+    std::size_t passive_place = 0;  // of the passive network where it cannot be told from the first
+    for (const RankedModel& model : ranking.models) {
+      if (!is_recommendable(model)) break;
+      if (model.name == "passive_network" && (!model.behind || model.behind->holds_zero()))
+        passive_place = of_rest.size();
+      of_rest.push_back(evaluate(*model.fit.model, rest.records, rest.drive_unit).pooled.esr);
+      of_there.push_back(evaluate(*model.fit.model, there.records, there.drive_unit).pooled.esr);
+    }
+    if (of_rest.empty()) throw Error(std::string(one.truth), "no model may be named");
+    const double least_rest = std::ranges::min(of_rest), least_there = std::ranges::min(of_there);
+    first.add(of_rest.front() / least_rest, of_there.front() / least_there);
+    passive.add(of_rest[passive_place] / least_rest, of_there[passive_place] / least_there);
+  }
+
+  const auto mean = [&](double sum) {
+    return format_number(std::exp(sum / static_cast<double>(draws)), 3);
+  };
+  fmt::print("| {} | {} | {} | {} | {} |\n", one.truth, mean(first.rest), mean(first.outside),
+             mean(passive.rest), mean(passive.outside));
+  std::fflush(stdout);
+}
+
 void print_details(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     fmt::print(stderr, "  {:<24} inside {:>8} outside {:>8}\n", row.model,
@@ -135,6 +195,7 @@ void print_details(const std::vector<Row>& rows) {
 
 int run(const std::vector<std::string>& arguments) {
   // The options, then the truths; all six unless some are named.
+  std::size_t few = 0, draws = 4;
   std::vector<std::string> models = {"bingham",           "tanh_kwok",
                                      "large_scale_bouc_wen", "modified_bouc_wen",
                                      "passive_network",   "hysteresis_network"};
@@ -146,6 +207,10 @@ int run(const std::vector<std::string>& arguments) {
       models = split(arguments[++k], ',');
     else if (arguments[k] == "--epochs" && has_value)
       options.network.epochs = static_cast<std::size_t>(std::stoul(arguments[++k]));
+    else if (arguments[k] == "--few" && has_value)
+      few = std::stoul(arguments[++k]);
+    else if (arguments[k] == "--draws" && has_value)
+      draws = std::stoul(arguments[++k]);
     else
       truths.push_back(arguments[k]);
   }
@@ -153,13 +218,22 @@ int run(const std::vector<std::string>& arguments) {
     if (std::ranges::find(kCases, name, &Case::truth) == kCases.end())
       throw Error(name, "is none of the dampers", "series_spring, asymmetric_valves, ...");
 
-  fmt::print(
+  if (few > 0)
+    fmt::print(
+        "| damper | first: the rest | first: afterwards | passive among equals: the rest | passive "
+        "among equals: afterwards |\n|---|---:|---:|---:|---:|\n");
+  else
+    fmt::print(
       "| damper | named inside | ESR % inside | outside | best outside | ESR % | named / best | rank "
       "correlation |\n|---|---|---:|---:|---|---:|---:|---:|\n");
   for (const Case& one : kCases) {
     if (!truths.empty() && std::ranges::find(truths, one.truth) == truths.end()) continue;
     const auto truth =
         make_true_damper(*std::ranges::find(true_dampers(), one.truth, &TrueDamperParts::name));
+    if (few > 0) {
+      print_few(one, *truth, models, options, few, draws);
+      continue;
+    }
     const Dataset inside = recorded(*truth, one);
     const std::vector<Row> rows =
         judged(rank(models, inside, {.by = LeaveOut::By::Condition}, options),

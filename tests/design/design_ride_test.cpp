@@ -25,6 +25,14 @@ DesignReport ridden_design(const std::string& rest, DesignOptions options = {}) 
   return design(parsed(rest), options);
 }
 
+/// Counts how often it was driven.
+class CountingRide final : public DesignRide {
+ public:
+  std::string description() const override { return "a count"; }
+  double comfort(const ModelFile&) const override { return static_cast<double>(++rides); }
+  mutable int rides = 0;
+};
+
 /// The a_w of a drawing in that ride, by the law that its model file holds.
 double comfort_of(const DamperDescription& damper, const DesignRequest& request) {
   const auto physics = make_design_model("physics", "");
@@ -84,6 +92,31 @@ TEST_CASE("a constraint on comfort holds, or what could be reached is said; of a
                           .of({request.damper, {0.5, 0.02}, physics, *family, &request});
   CHECK_CLOSE(told, request.ride->comfort(*family->model_of(request.damper)), 1e-12, 0);
   CHECK(told > 0);
+}
+
+TEST_CASE("what constraints alone cannot reach is said without a single ride") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "family.json").string();
+  save_model(
+      {.model = resisting_family().with_offset(0), .domain = {-0.02, 0.02, -0.05, 0.05, 0, 1}},
+      file);
+  for (const std::string& model : {std::string("physics"), file})
+    for (const char* const robust :
+         {"", "tolerances: {gap: 0.05 mm}\nrobust: {share: 0.9, samples: 4}\n"}) {
+      CAPTURE(model);
+      CAPTURE(robust);
+      DesignRequest request = parsed(
+          "ride: {plant: savaresi_spelta}\nconstraints: [{quantity: force, min: 1e6 N}]\n"
+          "goals: [{minimise: comfort}]\n" +
+          std::string(robust));
+      const auto ride = std::make_shared<CountingRide>();
+      request.ride = ride;
+      const DesignReport report = design(request, {.threads = 1, .model = model});
+      CHECK(report.designs.empty());
+      REQUIRE(report.conflict);
+      CHECK(contains(describe(*report.conflict, report.request), "force at least 1e+06 N"));
+      CHECK(ride->rides == 0);
+    }
 }
 
 TEST_CASE("a robust design for comfort by two models rides each damper made, by both" *

@@ -201,13 +201,16 @@ std::vector<std::vector<double>> DesignRun::explain() {
 
 bool DesignRun::is_hopeless() {
   constexpr double kFar = 0.1;  // of a bound: more than tolerances could mend
-  if (!is_fitted() || report_.request.constraints.empty() || report_.request.share == 0)
-    return false;
+  const DesignRequest& request = report_.request;
+  const bool takes_long = request.ride || (is_fitted() && request.share > 0);
+  if (!takes_long || request.constraints.empty()) return false;
 
-  // A few searches of the same request for the drawing alone.
-  DesignRequest drawn = report_.request;
+  // A few searches of the same request for the drawing alone, and without rides as goals: what
+  // they tell counts only where the constraints hold.
+  DesignRequest drawn = request;
   drawn.share = 0;
   drawn.tolerances.clear();
+  std::erase_if(drawn.goals, [](const DesignGoal& goal) { return is_of_ride(*goal.quantity); });
   const DesignProblem problem(drawn, *model_, report_.options.seed, second_.get());
   OptimiseOptions options = search_options("can it be reached", 0, 0.1);
   options.starts = 2;
@@ -224,9 +227,10 @@ bool DesignRun::is_hopeless() {
     report_.conflict.reset();
     return false;
   }
-  report_.notes.push_back(
-      "judged by the drawn damper alone: that a share of the dampers made must hold the same asks "
-      "more");
+  if (request.share > 0)
+    report_.notes.push_back(
+        "judged by the drawn damper alone: that a share of the dampers made must hold the same "
+        "asks more");
   return true;
 }
 

@@ -47,15 +47,6 @@ void set_variable(const DesignVariable& variable, double place, std::optional<st
         variable.values.empty() ? range_value(variable, place, level) : variable.values[*level];
 }
 
-bool is_possible(const DamperDescription& damper) {
-  try {
-    require_possible(damper, "");
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 /// What becomes of the tolerances of so many dampers, in -1 ... 1.
 std::vector<std::vector<double>> draw_made(std::size_t dampers, std::size_t tolerances,
                                            std::uint64_t seed) {
@@ -73,6 +64,15 @@ double slack_of(const DesignConstraint& constraint, double figure) {
 }
 
 }  // namespace
+
+bool is_possible(const DamperDescription& damper) {
+  try {
+    require_possible(damper, "");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
 
 DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model,
                              std::uint64_t seed, const DesignModel* second)

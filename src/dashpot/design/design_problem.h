@@ -26,6 +26,9 @@ struct Assessment {
   bool holds() const { return possible && known && violation == 0; }
 };
 
+/// Whether a damper can be drawn so: lengths above 0, a gap within its bore.
+bool is_possible(const DamperDescription& damper);
+
 /// A request turned into a search: places in the unit cube are dampers, which are assessed.
 /// Immutable.
 class DesignProblem {

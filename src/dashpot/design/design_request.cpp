@@ -237,10 +237,11 @@ std::size_t DesignVariable::levels() const {
   return step > 0 ? static_cast<std::size_t>(std::floor((to - from) / step * (1 + 1e-12))) + 1 : 0;
 }
 
+bool is_of_ride(const DesignQuantity& quantity) { return quantity.name == kRideComfort; }
+
 bool asks_comfort(const DesignRequest& request) {
-  const auto is_of_ride = [](const auto& asked) { return asked.quantity->name == kRideComfort; };
-  return std::ranges::any_of(request.goals, is_of_ride) ||
-         std::ranges::any_of(request.constraints, is_of_ride);
+  const auto asks = [](const auto& asked) { return is_of_ride(*asked.quantity); };
+  return std::ranges::any_of(request.goals, asks) || std::ranges::any_of(request.constraints, asks);
 }
 
 std::string describe(const DesignConstraint& c) {

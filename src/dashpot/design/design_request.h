@@ -73,7 +73,9 @@ struct DesignRequest {
   int samples = 32;  ///< dampers that stand for those made
 };
 
-/// Whether a goal or a constraint is of the ride.
+/// Whether a quantity is of the ride, and so takes long to compute; and whether any goal or
+/// constraint is.
+bool is_of_ride(const DesignQuantity& quantity);
 bool asks_comfort(const DesignRequest& request);
 
 /// "force at least 1500 N at 2 A, 0.3 m/s, by the second model"; the same of a goal: "largest

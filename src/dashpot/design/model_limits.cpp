@@ -61,7 +61,7 @@ std::vector<std::string> unseen_fields(const DesignProblem& problem, const Desig
     const DamperDescription from = problem.damper_at(place);
     place[k] = 1;
     const DamperDescription to = problem.damper_at(place);
-    if (!problem.assess(from).possible || !problem.assess(to).possible) continue;
+    if (!is_possible(from) || !is_possible(to)) continue;
     if (moves_force(*physics, from, to, at) && !moves_force(model, from, to, at))
       unseen.push_back(problem.request().variables[k].name());
   }
