@@ -148,7 +148,7 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
                         .caption = "Measured and modelled, at the end of the first recording.",
                         .panels = {}};
   const InPlantTrace& trace = report.traces.front();
-  const std::size_t count = trace.force.size();
+  const std::size_t count = trace.current.size();
   const std::size_t first = count > kMostShown ? count - kMostShown : 0;
   if (!report.road_measured) {
     figure.title = "Damper";
@@ -172,19 +172,22 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
     figure.panels.push_back(std::move(panel));
   }
 
-  // The virtual load cell: what no sensor measures.
-  FigurePanel panel{.title = report.road_measured ? "force of the damper, modelled"
-                                                  : "force of the damper, observed",
-                    .x_label = "deflection, m",
-                    .y_label = "force, N",
-                    .series = {}};
-  FigureSeries loop{.label = "modelled", .colour = "modelled"};
-  for (std::size_t k = first; k < count; ++k) {
-    loop.x.push_back(trace.deflection[k]);
-    loop.y.push_back(trace.force[k]);
+  // The virtual load cells: what no sensor measures.
+  for (const DamperTrace& damper : trace.dampers) {
+    const std::string place = trace.dampers.size() > 1 ? " at " + damper.strut : "";
+    FigurePanel panel{.title = "force of the damper" + place +
+                               (report.road_measured ? ", modelled" : ", observed"),
+                      .x_label = "deflection, m",
+                      .y_label = "force, N",
+                      .series = {}};
+    FigureSeries loop{.label = "modelled", .colour = "modelled"};
+    for (std::size_t k = first; k < count; ++k) {
+      loop.x.push_back(damper.deflection[k]);
+      loop.y.push_back(damper.force[k]);
+    }
+    panel.series = {std::move(loop)};
+    figure.panels.push_back(std::move(panel));
   }
-  panel.series = {std::move(loop)};
-  figure.panels.push_back(std::move(panel));
   return figure;
 }
 
@@ -335,7 +338,8 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   std::string where = "\n";
   if (settings.results.report) where += write_document(document, folder, "report");
   console.print(where + "Models   " + models.string() + "/\nPlants   " + plants.string() +
-                "/, as they were found, for 'dashpot observe'\n");
+                "/, as they were found" +
+                (setup.dampers() == 1 ? ", for 'dashpot observe'\n" : "\n"));
   if (console.json) console.print_json(document_json(document));
   return std::isfinite(fits.front().worst()) ? kDone : kNotUsable;
 }

@@ -78,4 +78,14 @@ TEST_CASE("identify --in: what cannot be used is said before the work") {
   CHECK(contains(output(plant + " --models dahl"), "leaves 2 samples to fit"));
   CHECK(contains(output("--in oscillator,mass=2,force=psh,displacement=x --models dahl"),
                  "has no column 'psh'; it has 'time [s]', 'push [N]', 'x [mm]'"));
+
+  // A car of two axles: where, and the road under each.
+  const std::string car =
+      "--models dahl --in half_car,mass=690,inertia=1222,front_wheel_mass=40,rear_wheel_mass=45,"
+      "front_stiffness=17e3,rear_stiffness=22e3,front_tyre_stiffness=2e5,rear_tyre_stiffness=2e5,"
+      "front_distance=1.3,rear_distance=1.5,deflection=x@rear,ground=push";
+  CHECK(contains(output(car), "--in, ground: says not where; at: one of front, rear"));
+  CHECK(contains(output(car + "@front"),
+                 "plant, inputs: none says what the road does under the rear_tyre; an input of "
+                 "kind: ground, at: each place where a tyre meets the road"));
 }

@@ -66,7 +66,7 @@ TEST_CASE("input noise: what is mixed at random is told apart") {
 
   const NoiseSources truth{.sensors = {0.05, 0.5, 2e-4}, .inputs = {5e-4}, .force = {30, 0, 0}};
   std::vector<PlantInputPlace> inputs = {{PlantInput::Ground, 0}};
-  const DrivenPlant plant(make_plant(*setup.model, setup.known), 0, inputs);
+  const DrivenPlant plant(make_plant(*setup.model, setup.known), inputs);
   PlantAtLine at(plant, setup, stand_in);
   Random random(3);
   std::vector<std::vector<std::complex<double>>> lines(
@@ -78,7 +78,7 @@ TEST_CASE("input noise: what is mixed at random is told apart") {
     const double w = 2 * std::numbers::pi * kRate * static_cast<double>(l) / kSamples;
     at.move_to(w);
     at.of_input(0, road);
-    at.of_force(force);
+    at.of_force(0, force);
     const double memory = force_memories()[0];
     noise[l] = truth.inputs[0] * normal();
     const auto d =

@@ -50,7 +50,7 @@ std::vector<double> defaults_of(const char* law) {
 
 DrivenPlant quarter_car() {
   const PlantInputPlace ground{PlantInput::Ground, 0};
-  return {make_plant(find_machine("quarter_car", "test"), {}), 0, {&ground, 1}};
+  return {make_plant(find_machine("quarter_car", "test"), {}), {&ground, 1}};
 }
 
 /// Body and wheel acceleration and the damper's force; empty where it diverges.

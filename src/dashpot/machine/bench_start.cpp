@@ -89,7 +89,7 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
   setup.unknown.clear();
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const DrivenPlant equations(make_plant(*setup.model, setup.known), setup.strut, inputs);
+  const DrivenPlant equations(make_plant(*setup.model, setup.known), inputs);
   const auto dashpot = std::make_shared<LawModel>(dashpot_model(usual_dashpot(equations)));
   const Domain domain = usual_domain(0, 0);
   const double force = observer_scale(*dashpot, domain).force;

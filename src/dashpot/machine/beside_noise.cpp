@@ -49,11 +49,15 @@ std::vector<RecordingNoise> noise_about(const InPlantSetup& setup, const PlantCa
     const InPlantTrace& trace = traces[c];
     const std::size_t first = cases.all[c].first, count = trace.training - first;
 
-    // The spring and the dashpot along this motion.
+    // The spring and the dashpot along this motion, of all dampers together.
     std::vector<DamperInput> motion;
-    for (std::size_t k = first; k < trace.training; ++k)
-      motion.push_back({trace.deflection[k], trace.velocity[k], trace.current[k]});
-    const auto stand_in = stand_in_of(motion, std::span(trace.force).subspan(first, count));
+    std::vector<double> force;
+    for (const DamperTrace& damper : trace.dampers)
+      for (std::size_t k = first; k < trace.training; ++k) {
+        motion.push_back({damper.deflection[k], damper.velocity[k], trace.current[k]});
+        force.push_back(damper.force[k]);
+      }
+    const auto stand_in = stand_in_of(motion, force);
     if (!stand_in) return {};
     all.emplace_back(setup, *stand_in, trace.sample_time, count);
 
@@ -128,10 +132,10 @@ EndOfSearch end_of(const LeastSquaresProblem& problem, const LeastSquaresReport&
 /// What the damper may show beside its law: a force that follows its deflection, or its velocity.
 struct MoreForce {
   const char *name, *unit;
-  std::vector<double> InPlantTrace::* follows;
+  std::vector<double> DamperTrace::* follows;
 };
-constexpr std::array kMore = {MoreForce{"spring", "N/m", &InPlantTrace::deflection},
-                              MoreForce{"dashpot", "N*s/m", &InPlantTrace::velocity}};
+constexpr std::array kMore = {MoreForce{"spring", "N/m", &DamperTrace::deflection},
+                              MoreForce{"dashpot", "N*s/m", &DamperTrace::velocity}};
 
 /// The sensitivity to one N/m or N*s/m of it, as rows of the residuals.
 std::vector<double> column_of(const MoreForce& more, const LeastSquaresProblem& problem,
@@ -143,7 +147,10 @@ std::vector<double> column_of(const MoreForce& more, const LeastSquaresProblem& 
     const std::size_t count = noise[c].lines() * noise[c].rows_per_line();
     const std::span<double> rows = std::span(column).subspan(at, count);
     at += count;
-    noise[c].put_force(std::span(traces[c].*more.follows).subspan(cases.all[c].first), rows);
+    std::vector<std::span<const double>> forces;
+    for (const DamperTrace& damper : traces[c].dampers)
+      forces.push_back(std::span(damper.*more.follows).subspan(cases.all[c].first));
+    noise[c].put_forces(forces, rows);
     for (std::size_t i = 0; i < rows.size(); ++i)
       rows[i] /= residuals.scale_of(i % noise[c].rows_per_line() / 2);
   }
@@ -360,8 +367,9 @@ void add_noise(const InPlantSetup& setup, const NoiseFound& found, InPlantReport
   };
 
   // In the order of the uncertainties.
+  const Plant plant = make_plant(*setup.model, setup.known);
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
-    add("noise of " + setup.sensors[s].channel, unit_of(setup.sensors[s].place.quantity),
+    add("noise of " + setup.sensors[s].channel, unit_of(setup.sensors[s].place, plant),
         found.sources.sensors[s]);
   for (std::size_t u = 0; u < setup.inputs.size(); ++u)
     add("noise of " + setup.inputs[u].channel, unit_of(setup.inputs[u].place.kind),

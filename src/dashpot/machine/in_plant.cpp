@@ -188,10 +188,12 @@ PlantCases under_straight_force(const InPlantSetup& setup,
 Candidate start_of_law(const Law& law, const InPlantSetup& setup,
                        const std::vector<PlantRecording>& recordings, PlantCases& cases,
                        const PlantStart& start, const InPlantOptions& options) {
-  // One with a step of its own may have a sharp knee.
+  // One with a step of its own may have a sharp knee. The observer, which sees a damper as on a
+  // bench, knows one alone.
   const bool may_be_sharp = is_expected(setup) && law.step;
+  const bool is_seen = is_expected(setup) && setup.dampers() == 1;
   std::optional<Candidate> from_bench;
-  if (may_be_sharp || (is_expected(setup) && law.states.empty()))
+  if (is_seen && (law.step || law.states.empty()))
     from_bench = bench_candidate(law, setup, recordings, cases, start, options);
   if (may_be_sharp)
     cases = under_straight_force(setup, recordings, options);
@@ -252,14 +254,15 @@ LeastSquaresReport solve_weighed(const InPlantSetup& setup, PlantResiduals& resi
 /// What the damper went through.
 Domain domain_of(const std::vector<InPlantTrace>& traces, const DriveRange& drive) {
   Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
-  for (const InPlantTrace& trace : traces) {
-    const auto [shortest, longest] = std::ranges::minmax(trace.deflection);
-    const auto [slowest, quickest] = std::ranges::minmax(trace.velocity);
-    domain.displacement_min = std::min(domain.displacement_min, shortest);
-    domain.displacement_max = std::max(domain.displacement_max, longest);
-    domain.velocity_min = std::min(domain.velocity_min, slowest);
-    domain.velocity_max = std::max(domain.velocity_max, quickest);
-  }
+  for (const InPlantTrace& trace : traces)
+    for (const DamperTrace& damper : trace.dampers) {
+      const auto [shortest, longest] = std::ranges::minmax(damper.deflection);
+      const auto [slowest, quickest] = std::ranges::minmax(damper.velocity);
+      domain.displacement_min = std::min(domain.displacement_min, shortest);
+      domain.displacement_max = std::max(domain.displacement_max, longest);
+      domain.velocity_min = std::min(domain.velocity_min, slowest);
+      domain.velocity_max = std::max(domain.velocity_max, quickest);
+    }
   return domain;
 }
 
@@ -410,12 +413,11 @@ std::vector<double> plant_response(const Plant& plant, const DamperModel& damper
                                    std::size_t steps) {
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const DrivenPlant equations(plant, setup.strut, inputs);
+  const DrivenPlant equations(plant, inputs);
   const PlantCases cases = make_cases(setup, {recording}, steps);
   const PlantDriving& driving = cases.all.front().driving;
 
-  std::vector<double> state(2 * plant.size() + damper.state_size());
-  damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(2 * plant.size()));
+  std::vector<double> state = equations.at_rest(damper, driving.current.front());
   std::vector<std::vector<double>> shown;
   if (!equations.run(damper, driving, driving.samples, {&setup.sensors.front().place, 1}, state,
                      shown))

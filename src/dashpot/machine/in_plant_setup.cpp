@@ -18,6 +18,37 @@ std::vector<std::string> InPlantSetup::channels() const {
   return names;
 }
 
+std::size_t InPlantSetup::dampers() const { return make_plant(*model, known).struts.size(); }
+
+void require_one_damper(const InPlantSetup& setup, const std::string& who) {
+  if (const std::size_t dampers = setup.dampers(); dampers > 1)
+    throw Error("plant " + std::string(setup.model->name),
+                "has " + std::to_string(dampers) + " dampers, and " + who + " knows one",
+                "a plant with one strut, as quarter_car");
+}
+
+namespace {
+
+/// Each place where tyres meet the road has a road of its own, or the road does not move at all.
+void require_roads(const InPlantSetup& setup, const Plant& plant, const std::string& where) {
+  const auto roads_of = [&](std::size_t tyre) {
+    return std::ranges::count_if(setup.inputs, [&](const PlantInputChannel& one) {
+      return one.place.kind == PlantInput::Ground && one.place.tyre == tyre;
+    });
+  };
+  const bool moves = std::ranges::any_of(setup.inputs, [](const PlantInputChannel& one) {
+    return one.place.kind == PlantInput::Ground;
+  });
+  for (std::size_t w = 0; moves && has_several_roads(plant) && w < plant.tyres.size(); ++w)
+    if (const auto roads = roads_of(w); roads != 1)
+      throw Error(where + ", inputs",
+                  roads == 0 ? "none says what the road does under the " + plant.tyres[w].name
+                             : "two say what the road does under the " + plant.tyres[w].name,
+                  "an input of kind: ground, at: each place where a tyre meets the road");
+}
+
+}  // namespace
+
 void require_setup(const InPlantSetup& setup) {
   const std::string where = "plant";
   if (!setup.model)
@@ -55,7 +86,7 @@ void require_setup(const InPlantSetup& setup) {
 
   // Something must move it, something must show that, and a damper must have a place.
   const Plant plant = make_plant(*setup.model, setup.known, where);
-  if (setup.strut >= plant.struts.size())
+  if (plant.struts.empty())
     throw Error(where, owner + " has no place for a damper", "one of the plants with a strut");
   if (setup.inputs.empty())
     throw Error(where, "no input is stated", "a channel of a force, a ground or its acceleration");
@@ -64,7 +95,8 @@ void require_setup(const InPlantSetup& setup) {
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) {
     inputs.push_back(input.place);
-    if (input.road && plant.struts[setup.strut].track)
+    if (input.road) require_one_damper(setup, "a fit beside a road that nothing measures");
+    if (input.road && plant.struts.front().track)
       throw Error(where, "the damper stands on a ground that nothing measures",
                   "a channel with the ground's height");
     if (input.place.kind == PlantInput::Force && input.place.coordinate >= plant.size())
@@ -75,9 +107,10 @@ void require_setup(const InPlantSetup& setup) {
                     "what moves the plant cannot judge the fit");
   }
   for (const PlantSensor& sensor : setup.sensors)
-    if (sensor.place.coordinate >= plant.size())
-      throw Error(where + ", " + sensor.channel, "stands on a coordinate that is not there");
-  const DrivenPlant equations(plant, setup.strut, inputs);
+    if (sensor.place.coordinate >= plant.size() || sensor.place.strut >= plant.struts.size())
+      throw Error(where + ", " + sensor.channel, "stands where the plant has nothing");
+  require_roads(setup, plant, where);
+  const DrivenPlant equations(plant, inputs);
   if (!(setup.held_back >= 0 && setup.held_back < 0.9))
     throw Error(where + ", held_back", "is " + format_number(setup.held_back),
                 "a share of the time from 0 to below 0.9");

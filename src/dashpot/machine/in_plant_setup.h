@@ -12,8 +12,8 @@
 
 namespace dashpot {
 
-// A plant with a damper that is to be identified in it: what is known of the plant, what moves it,
-// what was measured on it, and what is said of a fit in the end.
+// A plant with a damper that is to be identified in it, one in each of its struts: what is known of
+// the plant, what moves it, what was measured on it, and what is said of a fit in the end.
 
 /// A single mass on a spring and a dashpot, beside which the damper stands on ground that may move:
 ///   m q'' + c (q' - w') + k (q - w) = force - F(q - w, q' - w')
@@ -55,7 +55,6 @@ struct InPlantSetup {
   const PlantModel* model = nullptr;
   NamedValues known;  ///< SI; what is neither known nor unknown is as in the table
   std::vector<PlantUnknown> unknown;
-  std::size_t strut = 0;  ///< where the damper is
   std::vector<PlantInputChannel> inputs;
   std::vector<PlantSensor> sensors;
   std::string drive;  ///< channel of the current or voltage; empty: `level` all along
@@ -67,11 +66,15 @@ struct InPlantSetup {
 
   /// Names of the channels that it speaks of.
   std::vector<std::string> channels() const;
+  /// How many dampers, all alike, stand in the plant.
+  std::size_t dampers() const;
 };
 
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
+/// For what knows a single damper. Throws Error "has 2 dampers, and `who` follows one".
+void require_one_damper(const InPlantSetup& setup, const std::string& who);
 /// Whether an input is a road that nothing measures.
 bool has_unmeasured_road(const InPlantSetup& setup);
 
@@ -99,13 +102,20 @@ struct SensorFigures {
   double offset = 0;  ///< found, and taken off
 };
 
+/// A damper over a recording, modelled.
+struct DamperTrace {
+  std::string strut;  ///< in which it stands
+  std::vector<double> deflection, velocity, force;
+};
+
 /// The sensors over one recording, as measured and in free run.
 struct InPlantTrace {
   std::string recording;
   double sample_time = 0;
-  std::size_t training = 0;                                  ///< samples that were fitted
-  std::vector<std::vector<double>> measured, modelled;       ///< per sensor; offsets put on
-  std::vector<double> deflection, velocity, force, current;  ///< of the damper, modelled
+  std::size_t training = 0;                             ///< samples that were fitted
+  std::vector<std::vector<double>> measured, modelled;  ///< per sensor; offsets put on
+  std::vector<DamperTrace> dampers = {};
+  std::vector<double> current = {};
 };
 
 }  // namespace dashpot

@@ -14,7 +14,7 @@
 namespace dashpot {
 namespace {
 
-/// The words for what moves a plant and for what a sensor shows, with the unit of its noise.
+/// The words for what moves a plant and for what a sensor shows.
 constexpr std::array kInputWords = {
     std::pair{"force", PlantInput::Force}, std::pair{"ground", PlantInput::Ground},
     std::pair{"ground_acceleration", PlantInput::GroundAcceleration}};
@@ -22,16 +22,14 @@ constexpr std::array kInputWords = {
 struct QuantityWord {
   std::string_view word;
   PlantQuantity quantity;
-  std::string_view unit;
-  bool of_coordinate;
 };
 constexpr std::array kQuantityWords = {
-    QuantityWord{"displacement", PlantQuantity::Displacement, "m", true},
-    QuantityWord{"velocity", PlantQuantity::Velocity, "m/s", true},
-    QuantityWord{"acceleration", PlantQuantity::Acceleration, "m/s^2", true},
-    QuantityWord{"deflection", PlantQuantity::Deflection, "m", false},
-    QuantityWord{"deflection_velocity", PlantQuantity::DeflectionVelocity, "m/s", false},
-    QuantityWord{"damper_force", PlantQuantity::DamperForce, "N", false}};
+    QuantityWord{"displacement", PlantQuantity::Displacement},
+    QuantityWord{"velocity", PlantQuantity::Velocity},
+    QuantityWord{"acceleration", PlantQuantity::Acceleration},
+    QuantityWord{"deflection", PlantQuantity::Deflection},
+    QuantityWord{"deflection_velocity", PlantQuantity::DeflectionVelocity},
+    QuantityWord{"damper_force", PlantQuantity::DamperForce}};
 
 const PlantInput* find_input(const std::string& word) {
   for (const auto& [known, kind] : kInputWords)
@@ -43,6 +41,12 @@ const QuantityWord* find_quantity(const std::string& word) {
     if (word == known.word) return &known;
   return nullptr;
 }
+/// The name of a coordinate, of a strut, and of where a tyre meets the road: "front" of the
+/// front_tyre.
+std::string place_name(const Coordinate& coordinate) { return coordinate.name; }
+std::string place_name(const Strut& strut) { return strut.name; }
+std::string place_name(const Tyre& tyre) { return tyre.name.substr(0, tyre.name.rfind("_tyre")); }
+
 std::vector<std::string> input_words() {
   std::vector<std::string> words;
   for (const auto& [word, kind] : kInputWords) words.emplace_back(word);
@@ -86,16 +90,42 @@ void read_number(InPlantSetup& setup, const std::string& name, const std::string
   }
 }
 
-std::size_t coordinate_named(const Plant& plant, const std::string& name,
-                             const std::string& where) {
+/// Which of a plant's coordinates, struts or tyres (`what`) has this name; the only one needs none.
+template <class Part>
+std::size_t place_named(const std::vector<Part>& parts, const std::string& what,
+                        const std::string& name, const std::string& where) {
   std::vector<std::string> known;
-  for (std::size_t k = 0; k < plant.size(); ++k) {
-    if (plant.coordinates[k].name == name) return k;
-    known.push_back(plant.coordinates[k].name);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    known.push_back(place_name(parts[k]));
+    if (known.back() == name) return k;
   }
-  if (name.empty() && plant.size() == 1) return 0;
+  if (name.empty() && parts.size() == 1) return 0;
   if (name.empty()) throw Error(where, "says not where", "at: one of " + join(known, ", "));
-  throw Error(where, "the plant has no coordinate '" + name + "'", suggest(name, known));
+  throw Error(where, "the plant has no " + what + " '" + name + "'", suggest(name, known));
+}
+
+/// Where an input of this kind acts.
+PlantInputPlace input_place(PlantInput kind, const Plant& plant, const std::string& at,
+                            const std::string& where) {
+  if (kind == PlantInput::Force)
+    return {kind, place_named(plant.coordinates, "coordinate", at, where)};
+  if (kind == PlantInput::Ground && has_several_roads(plant))
+    return {kind, 0, place_named(plant.tyres, "road under a tyre", at, where)};
+  if (!at.empty()) throw Error(where, "the ground is under all of the plant", "leave out 'at'");
+  return {kind};
+}
+
+/// What a sensor of this quantity stands on.
+PlantSensorPlace sensor_place(const QuantityWord& word, const Plant& plant, const std::string& at,
+                              const std::string& where) {
+  PlantSensorPlace place{word.quantity};
+  if (!place.is_of_damper())
+    place.coordinate = place_named(plant.coordinates, "coordinate", at, where);
+  else if (plant.struts.size() > 1)
+    place.strut = place_named(plant.struts, "strut", at, where);
+  else if (!at.empty())
+    throw Error(where, std::string(word.word) + " is the damper's", "leave out 'at'");
+  return place;
 }
 
 /// What a plant cannot do without: a number that its table does not have at 0. Stops are none
@@ -174,16 +204,11 @@ InPlantSetup from_words(const std::string& words) {
   for (const auto& [key, value] : channels) {
     const auto [channel, place] = channel_and_place(value);
     const std::string at = where + ", " + key;
-    if (const PlantInput* kind = find_input(key)) {
-      const bool pushes = *kind == PlantInput::Force;
-      setup.inputs.push_back({channel, {*kind, pushes ? coordinate_named(plant, place, at) : 0}});
-      continue;
-    }
-    const QuantityWord& quantity = *find_quantity(key);
-    setup.sensors.push_back(
-        {.channel = channel,
-         .place = {quantity.quantity,
-                   quantity.of_coordinate ? coordinate_named(plant, place, at) : 0}});
+    if (const PlantInput* kind = find_input(key))
+      setup.inputs.push_back({channel, input_place(*kind, plant, place, at)});
+    else
+      setup.sensors.push_back(
+          {.channel = channel, .place = sensor_place(*find_quantity(key), plant, place, at)});
   }
   return setup;
 }
@@ -242,11 +267,7 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
   if (!known)
     throw Error(value.where(), "unknown kind of input '" + kind + "'",
                 suggest(kind, input_words()));
-  input.place.kind = *known;
-  if (*known == PlantInput::Force)
-    input.place.coordinate = coordinate_named(plant, at, value.where());
-  else if (!at.empty())
-    throw Error(value.where(), "the ground is under all of the plant", "leave out 'at'");
+  input.place = input_place(*known, plant, at, value.where());
   return input;
 }
 
@@ -257,13 +278,10 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
   const QuantityWord* known = find_quantity(word);
   if (!known)
     throw Error(value.where(), "unknown quantity '" + word + "'", suggest(word, quantity_words()));
-  sensor.place.quantity = known->quantity;
-  if (known->of_coordinate)
-    sensor.place.coordinate = coordinate_named(plant, at, value.where());
-  else if (!at.empty())
-    throw Error(value.where(), word + " is the damper's", "leave out 'at'");
-  sensor.noise = read_deviation(reader, "noise", known->unit);
-  sensor.zero = read_deviation(reader, "zero", known->unit);
+  sensor.place = sensor_place(*known, plant, at, value.where());
+  const std::string unit = unit_of(sensor.place, plant);
+  sensor.noise = read_deviation(reader, "noise", unit);
+  sensor.zero = read_deviation(reader, "zero", unit);
   if (const Value* delay = reader.optional("delay")) {
     sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
     if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
@@ -343,6 +361,7 @@ Value to_json(const InPlantSetup& setup) {
     one.add("kind", kInputWords[static_cast<std::size_t>(input.place.kind)].first);
     if (input.place.kind == PlantInput::Force)
       one.add("at", plant.coordinates[input.place.coordinate].name);
+    if (input.place.tyre) one.add("at", place_name(plant.tyres[*input.place.tyre]));
     if (input.noise > 0) one.add("noise", input.noise);
     if (input.road) {
       std::string road_class = "unknown";
@@ -361,7 +380,10 @@ Value to_json(const InPlantSetup& setup) {
     Value one = Value::object();
     one.add("channel", sensor.channel);
     one.add("quantity", word.word);
-    if (word.of_coordinate) one.add("at", plant.coordinates[sensor.place.coordinate].name);
+    if (!sensor.place.is_of_damper())
+      one.add("at", plant.coordinates[sensor.place.coordinate].name);
+    else if (plant.struts.size() > 1)
+      one.add("at", plant.struts[sensor.place.strut].name);
     if (sensor.noise > 0) one.add("noise", sensor.noise);
     if (sensor.zero > 0) one.add("zero", sensor.zero);
     if (sensor.finds_delay)

@@ -13,7 +13,8 @@ namespace dashpot {
 /// in which parameters of the plant are known ("2 kg"), "unknown" or in a range ("300..500 kg"),
 /// and inputs (force, ground, ground_acceleration) and sensors (displacement, velocity,
 /// acceleration, deflection, deflection_velocity) name their channel, with "@body" where the plant
-/// has several coordinates. current=CHANNEL, voltage=CHANNEL or current=1.5A drive the damper;
+/// has several coordinates, "@front" where it has several struts or meets the road at several
+/// places. current=CHANNEL, voltage=CHANNEL or current=1.5A drive the damper;
 /// held_back, skip and start=rest stand as in a file.
 ///
 /// A parameter that the plant's table does not have at 0 must be stated: nothing is guessed.

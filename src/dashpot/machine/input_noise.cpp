@@ -51,25 +51,26 @@ RecordingNoise::RecordingNoise(const InPlantSetup& setup, const StandIn& stand_i
                                double sample_time, std::size_t samples)
     : sensors_(setup.sensors.size()),
       inputs_(setup.inputs.size()),
+      dampers_(setup.dampers()),
       samples_(quick_length(samples)),
       lines_(static_cast<std::size_t>(kOfRate * static_cast<double>(samples_))),
       sample_time_(sample_time) {
-  // The plant, with a stand-in for the damper.
+  // The plant, with a stand-in for each damper.
   std::vector<PlantInputPlace> places;
   for (const PlantInputChannel& input : setup.inputs) places.push_back(input.place);
-  const DrivenPlant plant(make_plant(*setup.model, setup.known), setup.strut, places);
+  const DrivenPlant plant(make_plant(*setup.model, setup.known), places);
   PlantAtLine at(plant, setup, stand_in);
 
-  // At each line of the spectrum: what every sensor shows of each input, then of the force.
+  // At each line of the spectrum: what every sensor shows of each input, then of each force.
   std::vector<Complex> shows(sensors_);
   const double duration = sample_time * static_cast<double>(samples_);
   for (std::size_t l = 0; l < lines_; ++l) {
     at.move_to(kTurn * static_cast<double>(l + 1) / duration);
-    for (std::size_t u = 0; u <= inputs_; ++u) {
+    for (std::size_t u = 0; u < inputs_ + dampers_; ++u) {
       if (u < inputs_)
         at.of_input(u, shows);
       else
-        at.of_force(shows);
+        at.of_force(u - inputs_, shows);
       gains_.insert(gains_.end(), shows.begin(), shows.end());
     }
   }
@@ -93,8 +94,11 @@ double RecordingNoise::shape(std::size_t source, std::size_t line) const {
   return 2 * memory / sample_time_ / (1 + std::pow(w * memory, 2));
 }
 
-std::size_t RecordingNoise::gain_of(std::size_t source) const {
-  return std::min(source - sensors_, inputs_);
+/// First and behind the last gain of a source, the unit vectors of the sensors before those of
+/// inputs and forces: an error of the force is one of each damper's own.
+std::pair<std::size_t, std::size_t> RecordingNoise::gains_of(std::size_t source) const {
+  if (source < sensors_ + inputs_) return {source, source + 1};
+  return {sensors_ + inputs_, sensors_ + inputs_ + dampers_};
 }
 
 void RecordingNoise::weigh_by(const NoiseSources& sources) {
@@ -106,11 +110,12 @@ void RecordingNoise::weigh_by(const NoiseSources& sources) {
 
     // The noise of the sensors themselves, and what they show of that of inputs and force.
     for (std::size_t s = 0; s < sensors_; ++s) covariance[s * sensors_ + s] = variances_[s];
-    for (std::size_t j = sensors_; j < variances_.size(); ++j) {
-      const Complex* gain = &gains_[(l * (inputs_ + 1) + gain_of(j)) * sensors_];
-      shows.assign(gain, gain + sensors_);
-      add_noise(shows, variances_[j] * shape(j, l), covariance);
-    }
+    for (std::size_t j = sensors_; j < variances_.size(); ++j)
+      for (auto [g, end] = gains_of(j); g < end; ++g) {
+        const Complex* gain = &gains_[l * gains_per_line() + (g - sensors_) * sensors_];
+        shows.assign(gain, gain + sensors_);
+        add_noise(shows, variances_[j] * shape(j, l), covariance);
+      }
     factorise(covariance, sensors_);
   }
 }
@@ -141,16 +146,20 @@ std::vector<std::vector<double>> RecordingNoise::samples_of(std::span<const doub
   return samples;
 }
 
-void RecordingNoise::put_force(std::span<const double> force, std::span<double> rows) const {
+void RecordingNoise::put_forces(std::span<const std::span<const double>> forces,
+                                std::span<double> rows) const {
   const double scale = std::numbers::sqrt2 / std::sqrt(static_cast<double>(samples_));
-  const std::vector<Complex> lines = half_spectrum(force.first(samples_));
-  for (std::size_t l = 0; l < lines_; ++l)
-    for (std::size_t s = 0; s < sensors_; ++s) {
-      const Complex shows =
-          scale * gains_[(l * (inputs_ + 1) + inputs_) * sensors_ + s] * lines[l + 1];
-      rows[l * rows_per_line() + 2 * s] = shows.real();
-      rows[l * rows_per_line() + 2 * s + 1] = shows.imag();
-    }
+  std::ranges::fill(rows, 0.0);
+  for (std::size_t d = 0; d < forces.size(); ++d) {
+    const std::vector<Complex> lines = half_spectrum(forces[d].first(samples_));
+    for (std::size_t l = 0; l < lines_; ++l)
+      for (std::size_t s = 0; s < sensors_; ++s) {
+        const Complex shows =
+            scale * gains_[l * gains_per_line() + (inputs_ + d) * sensors_ + s] * lines[l + 1];
+        rows[l * rows_per_line() + 2 * s] += shows.real();
+        rows[l * rows_per_line() + 2 * s + 1] += shows.imag();
+      }
+  }
 }
 
 std::vector<std::vector<double>> RecordingNoise::likely_inputs() const {
@@ -171,13 +180,12 @@ std::vector<std::vector<double>> RecordingNoise::likely_inputs() const {
   return likely;
 }
 
-/// L^-1 of the sensors' unit vectors, the inputs' gains and the force's: each `sensors_` numbers.
+/// L^-1 of the sensors' unit vectors, the inputs' gains and the forces': each `sensors_` numbers.
 void RecordingNoise::whitened_gains(std::size_t line, std::vector<Complex>& gains) const {
-  gains.assign((sensors_ + inputs_ + 1) * sensors_, 0);
+  gains.assign(sensors_ * sensors_ + gains_per_line(), 0);
   for (std::size_t s = 0; s < sensors_; ++s) gains[s * sensors_ + s] = 1;
-  std::copy_n(&gains_[line * (inputs_ + 1) * sensors_], (inputs_ + 1) * sensors_,
-              &gains[sensors_ * sensors_]);
-  for (std::size_t g = 0; g <= sensors_ + inputs_; ++g)
+  std::copy_n(&gains_[line * gains_per_line()], gains_per_line(), &gains[sensors_ * sensors_]);
+  for (std::size_t g = 0; g < sensors_ + inputs_ + dampers_; ++g)
     solve_lower(&factors_[line * sensors_ * sensors_], sensors_, &gains[g * sensors_]);
 }
 
@@ -190,17 +198,17 @@ RecordingNoise::Shares RecordingNoise::shares() const {
     solve_lower(&factors_[l * sensors_ * sensors_], sensors_, white.data());
 
     // How much of what the line shows lies along each source, and how much should.
-    for (std::size_t j = 0; j < sources(); ++j) {
-      const std::size_t g = j < sensors_ ? j : sensors_ + gain_of(j);
-      Complex along = 0;
-      double length = 0;
-      for (std::size_t s = 0; s < sensors_; ++s) {
-        along += std::conj(gains[g * sensors_ + s]) * white[s];
-        length += std::norm(gains[g * sensors_ + s]);
+    for (std::size_t j = 0; j < sources(); ++j)
+      for (auto [g, end] = gains_of(j); g < end; ++g) {
+        Complex along = 0;
+        double length = 0;
+        for (std::size_t s = 0; s < sensors_; ++s) {
+          along += std::conj(gains[g * sensors_ + s]) * white[s];
+          length += std::norm(gains[g * sensors_ + s]);
+        }
+        shares.found[j] += shape(j, l) * std::norm(along);
+        shares.expected[j] += shape(j, l) * length;
       }
-      shares.found[j] += shape(j, l) * std::norm(along);
-      shares.expected[j] += shape(j, l) * length;
-    }
   }
   return shares;
 }
@@ -215,13 +223,14 @@ std::vector<double> RecordingNoise::information() const {
     // Of each pair, by the logarithms of their variances.
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {
-        const std::size_t a = i < sensors_ ? i : sensors_ + gain_of(i),
-                          b = j < sensors_ ? j : sensors_ + gain_of(j);
-        Complex product = 0;
-        for (std::size_t s = 0; s < sensors_; ++s)
-          product += std::conj(gains[a * sensors_ + s]) * gains[b * sensors_ + s];
-        information[i * n + j] +=
-            variances_[i] * shape(i, l) * variances_[j] * shape(j, l) * std::norm(product);
+        const double weight = variances_[i] * shape(i, l) * variances_[j] * shape(j, l);
+        for (auto [a, last_a] = gains_of(i); a < last_a; ++a)
+          for (auto [b, last_b] = gains_of(j); b < last_b; ++b) {
+            Complex product = 0;
+            for (std::size_t s = 0; s < sensors_; ++s)
+              product += std::conj(gains[a * sensors_ + s]) * gains[b * sensors_ + s];
+            information[i * n + j] += weight * std::norm(product);
+          }
       }
   }
   return information;

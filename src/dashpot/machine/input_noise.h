@@ -1,6 +1,7 @@
 #pragma once
 #include <complex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dashpot/machine/in_plant_setup.h"
@@ -13,12 +14,12 @@ namespace dashpot {
 //
 //   E = G_N N + G_D D + M,
 //
-// N the noise of the inputs' sensors, D errors of the law's force, M the noise of the plant's
-// sensors: normal, with the gains G of the plant with a spring and a dashpot in the damper's place.
-// Least squares of E are biased, since N is in the sensitivities as well (errors in variables:
-// T. Soderstrom, Automatica 43 (2007) 939-958). So sensitivities are taken under inputs without
-// their most likely noise, S_N G_N* S^-1 E with S the covariance of E: what is then left of N in
-// them does not depend on E, however E is weighed.
+// N the noise of the inputs' sensors, D errors of the law's force in each damper, M the noise of
+// the plant's sensors: normal, with the gains G of the plant with a spring and a dashpot in the
+// damper's place. Least squares of E are biased, since N is in the sensitivities as well (errors in
+// variables: T. Soderstrom, Automatica 43 (2007) 939-958). So sensitivities are taken under inputs
+// without their most likely noise, S_N G_N* S^-1 E with S the covariance of E: what is then left of
+// N in them does not depend on E, however E is weighed.
 
 /// Standard deviations of what E consists of, SI.
 struct NoiseSources {
@@ -56,8 +57,8 @@ class RecordingNoise {
   /// The samples of each sensor of which rows say all up to the last line, and nothing above it;
   /// their products add up to those of the rows.
   std::vector<std::vector<double>> samples_of(std::span<const double> rows) const;
-  /// What the sensors show of a force of the damper's, as such rows.
-  void put_force(std::span<const double> force, std::span<double> rows) const;
+  /// What the sensors show of forces of the dampers, as such rows.
+  void put_forces(std::span<const std::span<const double>> forces, std::span<double> rows) const;
   /// The most likely noise of each input's sensor.
   std::vector<std::vector<double>> likely_inputs() const;
 
@@ -75,11 +76,13 @@ class RecordingNoise {
   std::size_t sources() const { return sensors_ + inputs_ + force_memories().size(); }
   double shape(std::size_t source, std::size_t line) const;
   void whitened_gains(std::size_t line, std::vector<Complex>& gains) const;
-  std::size_t gain_of(std::size_t source) const;
+  std::pair<std::size_t, std::size_t> gains_of(std::size_t source) const;
+  /// The gains at a line, of inputs and then of the dampers' forces: `sensors_` numbers each.
+  std::size_t gains_per_line() const { return (inputs_ + dampers_) * sensors_; }
 
-  std::size_t sensors_, inputs_, samples_, lines_;
+  std::size_t sensors_, inputs_, dampers_, samples_, lines_;
   double sample_time_;
-  std::vector<Complex> gains_;    ///< lines x (inputs, then the force) x sensors
+  std::vector<Complex> gains_;    ///< lines x (inputs, then forces) x sensors
   std::vector<Complex> beyond_;   ///< lines x sensors, scaled to the variance of a sample
   std::vector<Complex> factors_;  ///< lines x sensors x sensors: of S
   std::vector<double> variances_;

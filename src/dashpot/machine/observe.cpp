@@ -220,7 +220,7 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
   const ObserverNames names = observer_names(setup, observer.damper());
   const std::size_t all = t.all(), count = samples.count,
                     coordinates = static_cast<std::size_t>(t.plant) / 2;
-  const std::string strut = make_plant(*setup.model, setup.known).struts[setup.strut].name;
+  const std::string strut = make_plant(*setup.model, setup.known).struts.front().name;
   ObservedRecording told{.name = recording.name, .sample_time = recording.sample_time};
   told.quantities = {{"damper_force", "N", {}, {}},
                      {strut + "_deflection", "m", {}, {}},
@@ -332,6 +332,7 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
                       const ObserveOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
+  require_one_damper(setup, "the observer");
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
   ObserveReport report;
   damper = mounted(
@@ -401,6 +402,7 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
                             InPlantSetup setup, double sample_time, const ObserveOptions& options) {
   constexpr double kLate = 0.1;  // of a sample
   require_setup(setup);
+  require_one_damper(setup, "the observer");
   setup.from_rest = true;
   damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
   ObserverScale scale = observer_scale(*damper, domain);

@@ -40,7 +40,7 @@ StepMatrices step_matrices(const DrivenPlant& plant, std::size_t acting, double 
       row[p + u] = h * plant.by_value()[u][i];
       row[p + 2 * acting + u] = h * plant.by_rate()[u][i];
     }
-    row[p + acting - 1] = -h * plant.by_force()[i];
+    row[p + acting - 1] = -h * plant.damper().by_force[i];
   }
   for (std::size_t u = 0; u < acting; ++u) block[(p + u) * whole + p + acting + u] = h;
   const std::vector<double> over = exponential(block, whole);
@@ -88,7 +88,8 @@ void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const Obse
   t.sensor_road.resize(sensors * roads);
   t.sensor_force.resize(sensors);
   for (std::size_t s = 0; s < sensors; ++s) {
-    const auto [quantity, q] = setup.sensors[s].place;
+    const PlantQuantity quantity = setup.sensors[s].place.quantity;
+    const std::size_t q = setup.sensors[s].place.coordinate;
     double* state = &t.sensor_plant[s * p];
     t.sensor_variance.push_back(noise.sensors[s] * noise.sensors[s]);
     switch (quantity) {
@@ -114,14 +115,15 @@ void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const Obse
           t.sensor_variance.back() +=
               std::pow(plant.by_rate()[inputs + r][q], 2) * road_rate_variance;
         }
-        t.sensor_force[s] = -plant.by_force()[q];
+        t.sensor_force[s] = -plant.damper().by_force[q];
         break;
       case PlantQuantity::Deflection:
       case PlantQuantity::DeflectionVelocity: {
         const bool is_rate = quantity == PlantQuantity::DeflectionVelocity;
-        for (std::size_t k = 0; k < n; ++k) state[(is_rate ? n : 0) + k] = plant.deflection()[k];
+        for (std::size_t k = 0; k < n; ++k) state[(is_rate ? n : 0) + k] = plant.damper().row[k];
         for (std::size_t u = 0; u < inputs; ++u)
-          (is_rate ? t.sensor_slope : t.sensor_input)[s * inputs + u] = -plant.on_ground()[u];
+          (is_rate ? t.sensor_slope : t.sensor_input)[s * inputs + u] =
+              -plant.damper().on_ground[u];
         break;
       }
       case PlantQuantity::DamperForce:
@@ -186,7 +188,7 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
   std::vector<PlantInputPlace> places;
   for (const PlantInputChannel& input : inputs) places.push_back(input.place);
   const Plant plant = make_plant(*setup.model, setup.known);
-  const DrivenPlant equations(plant, setup.strut, places);
+  const DrivenPlant equations(plant, places);
   const std::size_t n = plant.size(), p = 2 * n, acting = inputs.size() + 1;
 
   // The plant over a step.
@@ -201,9 +203,9 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
   t.inputs = static_cast<int>(inputs.size()) - t.roads;
   const auto measured = static_cast<std::size_t>(t.inputs), roads = inputs.size() - measured;
   StepMatrices matrices = step_matrices(equations, acting, t.step);
-  t.deflection = equations.deflection();
-  t.on_ground.assign(equations.on_ground().begin(),
-                     equations.on_ground().begin() + static_cast<std::ptrdiff_t>(measured));
+  t.deflection = equations.damper().row;
+  const std::vector<double>& on_ground = equations.damper().on_ground;
+  t.on_ground.assign(on_ground.begin(), on_ground.begin() + static_cast<std::ptrdiff_t>(measured));
 
   // What a sample adds to the uncertainty: a road goes on at random, the force's errors likewise,
   // and what is measured of an input is not quite what it was.

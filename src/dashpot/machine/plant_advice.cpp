@@ -130,21 +130,22 @@ Present present_of(const EndedFit& fit, const SensorGrade& grade) {
 }
 
 /// Every quantity at every point that the plant could show and no sensor does.
-std::vector<PlantSensorPlace> places_without(const InPlantSetup& setup, std::size_t coordinates) {
+std::vector<PlantSensorPlace> places_without(const InPlantSetup& setup, const Plant& plant) {
   std::vector<PlantSensorPlace> places;
-  const auto add = [&](PlantSensorPlace place, bool of_damper) {
+  const auto add = [&](PlantSensorPlace place) {
     const bool is_there = std::ranges::any_of(setup.sensors, [&](const PlantSensor& one) {
       return one.place.quantity == place.quantity &&
-             (of_damper || one.place.coordinate == place.coordinate);
+             (place.is_of_damper() ? one.place.strut == place.strut
+                                   : one.place.coordinate == place.coordinate);
     });
     if (!is_there) places.push_back(place);
   };
   for (const PlantQuantity q :
        {PlantQuantity::Displacement, PlantQuantity::Velocity, PlantQuantity::Acceleration})
-    for (std::size_t c = 0; c < coordinates; ++c) add({q, c}, false);
+    for (std::size_t c = 0; c < plant.size(); ++c) add({q, c});
   for (const PlantQuantity q :
        {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
-    add({q, 0}, true);
+    for (std::size_t d = 0; d < plant.struts.size(); ++d) add({q, 0, d});
   return places;
 }
 
@@ -153,9 +154,8 @@ std::string words_of(PlantSensorPlace place, const Plant& plant) {
                                     "acceleration",        "deflection of the damper",
                                     "speed of the damper", "force of the damper"};
   const std::string word = kWords[static_cast<std::size_t>(place.quantity)];
-  return place.quantity <= PlantQuantity::Acceleration
-             ? word + " of " + plant.coordinates[place.coordinate].name
-             : word;
+  if (!place.is_of_damper()) return word + " of " + plant.coordinates[place.coordinate].name;
+  return plant.struts.size() > 1 ? word + " at " + plant.struts[place.strut].name : word;
 }
 
 /// Adds J'J of what such sensors would show in one recording, over their samples without their
@@ -379,7 +379,7 @@ PlantAdvice advise(const EndedFit& fit, const SensorGrade& grade, const InPlantO
   // Each sensor that is not there.
   options.monitor.report("sensors that are not there", 0.9);
   const Plant plant = make_plant(*fit.setup.model, fit.setup.known);
-  const std::vector<PlantSensorPlace> places = places_without(fit.setup, plant.size());
+  const std::vector<PlantSensorPlace> places = places_without(fit.setup, plant);
   const std::vector<Information> added = information_at(fit, places, options.threads);
   for (std::size_t s = 0; s < added.size(); ++s) {
     const double noise = grade.sensors[static_cast<std::size_t>(places[s].quantity)];

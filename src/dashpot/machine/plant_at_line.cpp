@@ -67,9 +67,11 @@ void PlantAtLine::move_to(double w) {
   admittance_ = stand_in_.stiffness + iw() * stand_in_.damping;
   matrix_.resize(n * n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < n; ++k)
-      matrix_[i * n + k] = plant_.stiffness()[i * n + k] + iw() * plant_.damping()[i * n + k] +
-                           plant_.by_force()[i] * admittance_ * plant_.deflection()[k];
+    for (std::size_t k = 0; k < n; ++k) {
+      matrix_[i * n + k] = plant_.stiffness()[i * n + k] + iw() * plant_.damping()[i * n + k];
+      for (const DamperPlace& damper : plant_.dampers())
+        matrix_[i * n + k] += damper.by_force[i] * admittance_ * damper.row[k];
+    }
     matrix_[i * n + i] -= w * w;
   }
   invert(matrix_, inverse_, n);
@@ -77,42 +79,49 @@ void PlantAtLine::move_to(double w) {
     late_[s] = std::exp(-iw() * setup_.sensors[s].delay);
 }
 
+/// Of a push at each coordinate that comes from this input, this damper, or neither.
 template <class Push>
-void PlantAtLine::respond(const Push& push, const double* carried, double on_ground,
-                          double own_force, std::vector<Complex>& shows) {
+void PlantAtLine::respond(const Push& push, std::size_t input, std::size_t damper,
+                          std::vector<Complex>& shows) {
   const std::size_t n = plant_.size();
   q_.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) q_[i] += inverse_[i * n + k] * push(k);
-  Complex way = -on_ground;
-  for (std::size_t k = 0; k < n; ++k) way += plant_.deflection()[k] * q_[k];
-  for (std::size_t s = 0; s < shows.size(); ++s) {
-    const PlantSensorPlace& place = setup_.sensors[s].place;
-    const double with = carried ? carried[place.coordinate] : 0;
-    shows[s] = late_[s] * seen(place, way, with, own_force);
-  }
+  for (std::size_t s = 0; s < shows.size(); ++s)
+    shows[s] = late_[s] * seen(setup_.sensors[s].place, input, damper);
 }
 
-void PlantAtLine::of_force(std::vector<Complex>& shows) {
-  respond([&](std::size_t k) { return -plant_.by_force()[k]; }, nullptr, 0, 1, shows);
+void PlantAtLine::of_force(std::size_t damper, std::vector<Complex>& shows) {
+  const std::vector<double>& by_force = plant_.dampers()[damper].by_force;
+  respond([&](std::size_t k) { return -by_force[k]; }, kNone, damper, shows);
 }
 
 void PlantAtLine::of_input(std::size_t u, std::vector<Complex>& shows) {
-  const double ground = plant_.on_ground()[u];
   respond(
       [&](std::size_t k) {
-        return plant_.by_value()[u][k] + iw() * plant_.by_rate()[u][k] +
-               plant_.by_force()[k] * admittance_ * ground;
+        Complex sum = plant_.by_value()[u][k] + iw() * plant_.by_rate()[u][k];
+        for (const DamperPlace& damper : plant_.dampers())
+          sum += damper.by_force[k] * admittance_ * damper.on_ground[u];
+        return sum;
       },
-      plant_.carried()[u].data(), ground, 0, shows);
+      u, kNone, shows);
 }
 
 void PlantAtLine::of_push(std::size_t at, std::vector<Complex>& shows) {
-  respond([&](std::size_t k) { return k == at ? 1.0 : 0.0; }, nullptr, 0, 0, shows);
+  respond([&](std::size_t k) { return k == at ? 1.0 : 0.0; }, kNone, kNone, shows);
 }
 
-Complex PlantAtLine::seen(const PlantSensorPlace& place, Complex way, double carried,
-                          double force) const {
+Complex PlantAtLine::seen(const PlantSensorPlace& place, std::size_t input,
+                          std::size_t damper) const {
+  // Where the sensor's damper goes, and the force that is asked for.
+  const DamperPlace& own = plant_.dampers()[place.strut];
+  const auto way = [&] {
+    Complex sum = input == kNone ? 0 : -own.on_ground[input];
+    for (std::size_t k = 0; k < plant_.size(); ++k) sum += own.row[k] * q_[k];
+    return sum;
+  };
+  const double carried = input == kNone ? 0 : plant_.carried()[input][place.coordinate],
+               force = damper == place.strut ? 1 : 0;
   switch (place.quantity) {
     case PlantQuantity::Displacement:
       return q_[place.coordinate];
@@ -121,11 +130,11 @@ Complex PlantAtLine::seen(const PlantSensorPlace& place, Complex way, double car
     case PlantQuantity::Acceleration:
       return -w_ * w_ * q_[place.coordinate] + carried;
     case PlantQuantity::Deflection:
-      return way;
+      return way();
     case PlantQuantity::DeflectionVelocity:
-      return iw() * way;
+      return iw() * way();
     case PlantQuantity::DamperForce:
-      return force + admittance_ * way;
+      return force + admittance_ * way();
   }
   return 0;
 }

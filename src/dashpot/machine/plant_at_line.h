@@ -19,7 +19,7 @@ struct StandIn {
 std::optional<StandIn> stand_in_of(std::span<const DamperInput> motion,
                                    std::span<const double> force);
 
-/// What the sensors show at one frequency, with a spring and a dashpot in the damper's place. All
+/// What the sensors show at one frequency, with a spring and a dashpot in each damper's place. All
 /// that it is made from must outlive it; the setup's delays hold.
 class PlantAtLine {
  public:
@@ -30,18 +30,19 @@ class PlantAtLine {
   double w() const { return w_; }
   std::complex<double> iw() const { return {0, w_}; }
 
-  /// What the sensors show of a force of the damper's, of an input, of a push at a coordinate: one
+  /// What the sensors show of a force of a damper's, of an input, of a push at a coordinate: one
   /// number per sensor.
-  void of_force(std::vector<std::complex<double>>& shows);
+  void of_force(std::size_t damper, std::vector<std::complex<double>>& shows);
   void of_input(std::size_t u, std::vector<std::complex<double>>& shows);
   void of_push(std::size_t at, std::vector<std::complex<double>>& shows);
 
  private:
+  static constexpr std::size_t kNone = -1;
   template <class Push>
-  void respond(const Push& push, const double* carried, double on_ground, double own_force,
+  void respond(const Push& push, std::size_t input, std::size_t damper,
                std::vector<std::complex<double>>& shows);
-  std::complex<double> seen(const PlantSensorPlace& place, std::complex<double> way, double carried,
-                            double force) const;
+  std::complex<double> seen(const PlantSensorPlace& place, std::size_t input,
+                            std::size_t damper) const;
 
   const DrivenPlant& plant_;
   const InPlantSetup& setup_;

@@ -117,8 +117,9 @@ PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& case
   if (!setup.from_rest) {
     state_size_.assign(coordinates_, scale.stroke);
     state_size_.insert(state_size_.end(), coordinates_, scale.speed);
-    for (const StateInfo& state : example.law().states)
-      state_size_.push_back(scale.of_unit(state.unit));
+    for (std::size_t d = 0; d < setup.dampers(); ++d)
+      for (const StateInfo& state : example.law().states)
+        state_size_.push_back(scale.of_unit(state.unit));
   }
   for (std::size_t c = 0; c < cases.all.size(); ++c)
     for (const double size : state_size_) add(size, -kUnbounded, kUnbounded);
@@ -218,13 +219,18 @@ FittedParameter PlantResiduals::described(std::size_t k, std::span<const double>
   const Plant plant = make_plant(*setup_->model, setup_->known);
   const std::size_t n = plant.size();
   const LawModel model = damper(x);
-  p.name = place < n       ? plant.coordinates[place].name
-           : place < 2 * n ? plant.coordinates[place - n].name + "_velocity"
-                           : std::string(model.law().states[place - 2 * n].name);
-  p.unit = place < n       ? "m"
-           : place < 2 * n ? "m/s"
-                           : std::string(model.law().states[place - 2 * n].unit);
   p.meaning = "at the beginning of " + cases_->all[c].name;
+  if (place < 2 * n) {
+    const Coordinate& coordinate = plant.coordinates[place % n];
+    p.name = coordinate.name + (place < n ? "" : "_velocity");
+    p.unit = coordinate.unit + (place < n ? "" : "/s");
+    return p;
+  }
+  const auto& own = model.law().states;
+  const StateInfo& state = own[(place - 2 * n) % own.size()];
+  const std::string& strut = plant.struts[(place - 2 * n) / own.size()].name;
+  p.name = (plant.struts.size() > 1 ? strut + "_" : "") + std::string(state.name);
+  p.unit = state.unit;
   return p;
 }
 
@@ -234,18 +240,19 @@ DrivenPlant PlantResiduals::equations(std::span<const double> x) const {
     values.emplace_back(
         setup_->unknown[k].name,
         std::clamp(size_[k] * x[k], setup_->unknown[k].lower, setup_->unknown[k].upper));
-  return DrivenPlant(make_plant(*setup_->model, values), setup_->strut, inputs_);
+  return DrivenPlant(make_plant(*setup_->model, values), inputs_);
 }
 
 std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, std::size_t place,
-                                                   std::size_t coordinates,
+                                                   const DrivenPlant& plant,
                                                    const LawModel& damper) const {
-  std::vector<double> state(2 * coordinates + damper.state_size());
-  damper.rest({0, 0, cases_->all[place].driving.current.front()},
-              std::span(state).subspan(2 * coordinates));
+  std::vector<double> state = plant.at_rest(damper, cases_->all[place].driving.current.front());
+  const std::size_t of_plant = 2 * coordinates_, of_law = damper.law().states.size();
   for (std::size_t k = 0; k < states(); ++k) {
+    // Behind the law's states each damper may have one of its coil, which begins at rest.
+    const std::size_t before = k < of_plant ? 0 : (k - of_plant) / of_law;
     const std::size_t unknown = first_state_ + place * states() + k;
-    state[k] += size_[unknown] * x[unknown];
+    state[k + before * (damper.state_size() - of_law)] += size_[unknown] * x[unknown];
   }
   return state;
 }
@@ -254,7 +261,7 @@ bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
                          const LawModel& damper, const PlantCase& one, std::size_t place,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
                          Shown& shown, const RunBeside& beside) const {
-  std::vector<double> state = state_at_first(x, place, plant.size(), damper);
+  std::vector<double> state = state_at_first(x, place, plant, damper);
   if (one.driving.method == PlantMethod::StraightForce) plant.settle(damper, one.driving, state);
 
   // What a late sensor shows is older; a little further, so that it is known between samples.
@@ -564,13 +571,15 @@ bool PlantResiduals::diverges(std::span<const double> x) const {
 
 void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigures>& figures,
                               std::vector<InPlantTrace>& traces) const {
-  // Beside the sensors, the damper's own motion and force.
-  std::vector<PlantSensorPlace> places = sensors_;
-  for (const PlantQuantity own :
-       {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
-    places.push_back({own, 0});
-
+  // Beside the sensors, the dampers' own motion and force.
   const DrivenPlant plant = equations(x);
+  const Plant shown_plant = make_plant(*setup_->model, setup_->known);
+  std::vector<PlantSensorPlace> places = sensors_;
+  for (std::size_t d = 0; d < plant.dampers().size(); ++d)
+    for (const PlantQuantity own :
+         {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
+      places.push_back({own, 0, d});
+
   const LawModel model = damper(x);
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const PlantCase& one = cases_->all[c];
@@ -586,7 +595,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
       SensorFigures figure{.recording = one.name,
                            .channel = setup_->sensors[s].channel,
-                           .unit = unit_of(sensors_[s].quantity)};
+                           .unit = unit_of(sensors_[s], shown_plant)};
       std::vector<double> error(count);
       for (std::size_t k = 0; k < count; ++k) error[k] = one.measured[s][k] - shown[s][k];
       const std::span<const double> all(error);
@@ -602,11 +611,13 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
       figures.push_back(figure);
     }
 
-    // The damper at each sample.
+    // The dampers at each sample.
     const auto last = std::ptrdiff_t(sensors_.size());
-    trace.deflection = shown[sensors_.size()];
-    trace.velocity = shown[sensors_.size() + 1];
-    trace.force = shown[sensors_.size() + 2];
+    for (std::size_t d = 0; d < plant.dampers().size(); ++d) {
+      const std::size_t own = sensors_.size() + 3 * d;
+      trace.dampers.push_back(
+          {shown_plant.struts[d].name, shown[own], shown[own + 1], shown[own + 2]});
+    }
     for (std::size_t k = 0; k < count; ++k)
       trace.current.push_back(one.driving.current[stride * k]);
     trace.modelled.assign(shown.begin(), shown.begin() + last);

@@ -40,7 +40,7 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
-/// delays. All that it is made from must outlive it.
+/// delays. The law is that of every damper in the plant. All that it is made from must outlive it.
 class PlantResiduals : public InPlantUnknowns {
  public:
   using Shown = std::vector<std::vector<double>>;  ///< per sensor
@@ -101,7 +101,7 @@ class PlantResiduals : public InPlantUnknowns {
  private:
   DrivenPlant equations(std::span<const double> x) const;
   std::vector<double> state_at_first(std::span<const double> x, std::size_t place,
-                                     std::size_t coordinates, const LawModel& damper) const;
+                                     const DrivenPlant& plant, const LawModel& damper) const;
   bool run(std::span<const double> x, const DrivenPlant& plant, const LawModel& damper,
            const PlantCase& one, std::size_t place, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, Shown& shown,
@@ -129,7 +129,7 @@ class PlantResiduals : public InPlantUnknowns {
   std::vector<PlantSensorPlace> sensors_;
   std::vector<double> scale_;  ///< per sensor
   std::size_t coordinates_ = 0;
-  std::vector<double> state_size_;   ///< of q, q' and the law's states; empty: from rest
+  std::vector<double> state_size_;   ///< of q, q', each damper's states of the law; empty: rest
   std::vector<std::size_t> delays_;  ///< sensors whose delay is an unknown
   std::size_t first_state_ = 0, first_delay_ = 0;  ///< places among the unknowns
   std::vector<double> size_, lower_, upper_;

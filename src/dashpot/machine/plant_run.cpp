@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "dashpot/error.h"
@@ -10,9 +11,6 @@
 
 namespace dashpot {
 namespace {
-
-/// Room for the states of a plant and its damper, so that stepping allocates nothing.
-constexpr std::size_t kMostStates = 64;
 
 void require_linear(const Plant& plant) {
   const auto refuse = [&](const std::string& what, const std::string& right) {
@@ -23,9 +21,6 @@ void require_linear(const Plant& plant) {
       refuse("strut " + strut.name + " has stops or friction",
              "all but the damper must be linear: leave them out");
   if (plant.tyres_may_lift) refuse("its tyres may lift", "all but the damper must be linear");
-  for (const Tyre& tyre : plant.tyres)
-    if (tyre.behind != 0 || tyre.track != 0)
-      refuse("its tyres meet the road at several places", "a plant of one axle on one track");
 }
 
 }  // namespace
@@ -46,39 +41,55 @@ std::string unit_of(PlantQuantity quantity) {
   return "N";
 }
 
+std::string unit_of(const PlantSensorPlace& place, const Plant& plant) {
+  const std::string unit = unit_of(place.quantity);
+  return place.is_of_damper() ? unit : plant.coordinates[place.coordinate].unit + unit.substr(1);
+}
+
 std::string unit_of(PlantInput input) {
   constexpr std::array kUnits{"N", "m", "m/s^2"};  // in the order of PlantInput
   return kUnits[static_cast<std::size_t>(input)];
 }
 
-DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
-                         std::span<const PlantInputPlace> inputs)
+bool has_several_roads(const Plant& plant) {
+  return std::ranges::any_of(plant.tyres,
+                             [](const Tyre& tyre) { return tyre.behind != 0 || tyre.track != 0; });
+}
+
+DrivenPlant::DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> inputs)
     : size_(plant.size()) {
   require_linear(plant);
-  if (2 * size_ + 16 > kMostStates)
+  if (size_ > kMostCoordinates)
     throw Error("plant " + plant.name, "has " + std::to_string(size_) + " coordinates",
-                "at most " + std::to_string((kMostStates - 16) / 2));
+                "at most " + std::to_string(kMostCoordinates));
+  assert(!plant.struts.empty() && plant.struts.size() <= kMostDampers);
 
   // Mass, damping and stiffness with the tyres on, by the inverse of the mass.
   const LinearPlant linear = linear_plant(plant);
   damping_ = solve_columns(linear.mass, linear.damping, size_);
   stiffness_ = solve_columns(linear.mass, linear.stiffness, size_);
-  const Strut& place = plant.struts[strut];
-  row_ = place.row;
-  by_force_ = solve(linear.mass, row_);
+  for (const Strut& strut : plant.struts)
+    dampers_.push_back({strut.row, solve(linear.mass, strut.row), {}});
 
   // What each input pushes: a coordinate, the tyres, or all that moves with the ground.
   for (const PlantInputPlace& input : inputs) {
     std::vector<double> value(size_), rate(size_), carried(size_);
-    on_ground_.push_back(0);
+    for (std::size_t d = 0; d < dampers_.size(); ++d)
+      dampers_[d].on_ground.push_back(
+          input.kind == PlantInput::Ground && plant.struts[d].track ? 1 : 0);
     if (input.kind == PlantInput::Force) value[input.coordinate] = 1;
     if (input.kind == PlantInput::Ground) {
-      for (const Tyre& tyre : plant.tyres)
+      if (!input.tyre && has_several_roads(plant))
+        throw Error("plant " + plant.name, "its tyres meet the road at several places",
+                    "an input under each of them");
+      for (std::size_t w = 0; w < plant.tyres.size(); ++w) {
+        const Tyre& tyre = plant.tyres[w];
+        if (input.tyre && *input.tyre != w) continue;
         for (std::size_t k = 0; k < size_; ++k) {
           value[k] += tyre.row[k] * tyre.stiffness;
           rate[k] += tyre.row[k] * tyre.damping;
         }
-      if (place.track) on_ground_.back() = 1;
+      }
     }
     if (input.kind == PlantInput::GroundAcceleration) {
       if (plant.ground.empty())
@@ -89,7 +100,8 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
         for (std::size_t k = 0; k < size_; ++k)
           value[i] -= linear.mass[i * size_ + k] * plant.ground[k];
     }
-    if (input.kind == PlantInput::Ground && plant.tyres.empty() && !place.track)
+    if (input.kind == PlantInput::Ground && plant.tyres.empty() &&
+        std::ranges::none_of(plant.struts, [](const Strut& one) { return one.track.has_value(); }))
       throw Error("plant " + plant.name, "has no tyre on the ground",
                   "give it the ground's acceleration, not its height");
     by_value_.push_back(solve(linear.mass, value));
@@ -98,20 +110,34 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
   }
 }
 
-DamperInput DrivenPlant::damper_input(const PlantDriving& driving, std::size_t point,
-                                      const double* state) const {
-  DamperInput at{along(row_, state), along(row_, state + size_), driving.current[point]};
-  for (std::size_t u = 0; u < on_ground_.size(); ++u) {
-    at.displacement -= on_ground_[u] * driving.value[u][point];
-    at.velocity -= on_ground_[u] * driving.rate[u][point];
+const DamperPlace& DrivenPlant::damper() const {
+  assert(dampers_.size() == 1);
+  return dampers_.front();
+}
+
+std::vector<double> DrivenPlant::at_rest(const DamperModel& damper, double drive) const {
+  const std::size_t own = damper.state_size();
+  std::vector<double> state(2 * size_ + dampers_.size() * own);
+  for (std::size_t d = 0; d < dampers_.size(); ++d)
+    damper.rest({0, 0, drive}, std::span(state).subspan(2 * size_ + d * own, own));
+  return state;
+}
+
+DamperInput DrivenPlant::damper_input(const DamperPlace& place, const PlantDriving& driving,
+                                      std::size_t point, const double* state) const {
+  DamperInput at{along(place.row, state), along(place.row, state + size_), driving.current[point]};
+  for (std::size_t u = 0; u < place.on_ground.size(); ++u) {
+    at.displacement -= place.on_ground[u] * driving.value[u][point];
+    at.velocity -= place.on_ground[u] * driving.rate[u][point];
   }
   return at;
 }
 
 void DrivenPlant::accelerations(const PlantDriving& driving, std::size_t point, const double* state,
-                                double force, double* out) const {
+                                const double* forces, double* out) const {
   for (std::size_t i = 0; i < size_; ++i) {
-    double sum = -by_force_[i] * force;
+    double sum = -dampers_[0].by_force[i] * forces[0];
+    for (std::size_t d = 1; d < dampers_.size(); ++d) sum -= dampers_[d].by_force[i] * forces[d];
     for (std::size_t k = 0; k < size_; ++k)
       sum -= damping_[i * size_ + k] * state[size_ + k] + stiffness_[i * size_ + k] * state[k];
     for (std::size_t u = 0; u < by_value_.size(); ++u)
@@ -120,43 +146,59 @@ void DrivenPlant::accelerations(const PlantDriving& driving, std::size_t point, 
   }
 }
 
-/// The rates of all states at a point in time; returns the damper's force.
-double DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
-                          const double* state, double* out) const {
+/// The rates of all states at a point in time, and the forces of the dampers.
+void DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
+                        const double* state, double* out, Forces& forces) const {
   const std::size_t own = damper.state_size();
-  const double force = damper.flow(damper_input(driving, point, state), {state + 2 * size_, own},
-                                   {out + 2 * size_, own});
+  for (std::size_t d = 0; d < dampers_.size(); ++d) {
+    const std::size_t first = 2 * size_ + d * own;
+    forces[d] = damper.flow(damper_input(dampers_[d], driving, point, state), {state + first, own},
+                            {out + first, own});
+  }
   std::copy_n(state + size_, size_, out);
-  accelerations(driving, point, state, force, out + size_);
-  return force;
+  accelerations(driving, point, state, forces.data(), out + size_);
 }
 
 void DrivenPlant::settle(const DamperModel& damper, const PlantDriving& driving,
                          std::span<double> state) const {
-  const DamperInput first = damper_input(driving, 0, state.data());
-  DamperInput before = first;
-  before.displacement -= driving.sample_time * first.velocity;
-  damper.advance(before, first, driving.sample_time, state.subspan(2 * size_));
+  const std::size_t own = damper.state_size();
+  for (std::size_t d = 0; d < dampers_.size(); ++d) {
+    const DamperInput first = damper_input(dampers_[d], driving, 0, state.data());
+    DamperInput before = first;
+    before.displacement -= driving.sample_time * first.velocity;
+    damper.advance(before, first, driving.sample_time, state.subspan(2 * size_ + d * own, own));
+  }
+}
+
+double DrivenPlant::mass_along() const {
+  double sum = 0;
+  for (const DamperPlace& place : dampers_) sum += 1 / along(place.row, place.by_force.data());
+  return sum / static_cast<double>(dampers_.size());
 }
 
 double DrivenPlant::stiffness_along() const {
-  std::vector<double> pulled(size_);
-  for (std::size_t i = 0; i < size_; ++i)
-    for (std::size_t k = 0; k < size_; ++k) pulled[i] += stiffness_[i * size_ + k] * by_force_[k];
-  const double mass = mass_along();
-  return mass * mass * along(row_, pulled.data());
+  double sum = 0;
+  for (const DamperPlace& place : dampers_) {
+    std::vector<double> pulled(size_);
+    for (std::size_t i = 0; i < size_; ++i)
+      for (std::size_t k = 0; k < size_; ++k)
+        pulled[i] += stiffness_[i * size_ + k] * place.by_force[k];
+    const double mass = 1 / along(place.row, place.by_force.data());
+    sum += mass * mass * along(place.row, pulled.data());
+  }
+  return sum / static_cast<double>(dampers_.size());
 }
 
 /// What the sensors show at a sample; whether all of it is finite.
 bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
                        std::span<const PlantSensorPlace> sensors, const double* state,
-                       const double* acceleration, double force,
+                       const double* acceleration, const double* forces,
                        std::vector<std::vector<double>>& shown) const {
   const std::size_t point = sample * driving.stride();
-  const DamperInput at = damper_input(driving, point, state);
   bool finite = true;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
-    const std::size_t q = sensors[s].coordinate;
+    const std::size_t q = sensors[s].coordinate, strut = sensors[s].strut;
+    const auto motion = [&] { return damper_input(dampers_[strut], driving, point, state); };
     double value = 0;
     switch (sensors[s].quantity) {
       case PlantQuantity::Displacement:
@@ -172,13 +214,13 @@ bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
           value += carried_[u][q] * driving.value[u][point];
         break;
       case PlantQuantity::Deflection:
-        value = at.displacement;
+        value = motion().displacement;
         break;
       case PlantQuantity::DeflectionVelocity:
-        value = at.velocity;
+        value = motion().velocity;
         break;
       case PlantQuantity::DamperForce:
-        value = force;
+        value = forces[strut];
         break;
     }
     finite &= std::isfinite(value);
@@ -201,9 +243,10 @@ bool DrivenPlant::run_by_runge_kutta(const DamperModel& damper, const PlantDrivi
                                      std::span<double> state,
                                      std::vector<std::vector<double>>& shown) const {
   using States = std::array<double, kMostStates>;
-  const std::size_t count = 2 * size_ + damper.state_size();
+  const std::size_t count = 2 * size_ + dampers_.size() * damper.state_size();
   const double h = driving.sample_time / static_cast<double>(driving.steps);
   States first, second, third, fourth, between;
+  Forces forces, on_the_way;
   const auto moved = [&](const States& rate, double length) {
     for (std::size_t k = 0; k < count; ++k) between[k] = state[k] + length * rate[k];
     return between.data();
@@ -211,16 +254,16 @@ bool DrivenPlant::run_by_runge_kutta(const DamperModel& damper, const PlantDrivi
 
   // The inputs are known at the start, middle and end of every step.
   for (std::size_t point = 0, step = 0;; point += 2, ++step) {
-    const double force = rates(damper, driving, point, state.data(), first.data());
+    rates(damper, driving, point, state.data(), first.data(), forces);
     if (step % driving.steps == 0) {
       const std::size_t sample = step / driving.steps;
-      if (!show(driving, sample, sensors, state.data(), first.data() + size_, force, shown))
+      if (!show(driving, sample, sensors, state.data(), first.data() + size_, forces.data(), shown))
         return false;
       if (sample + 1 == samples) return true;
     }
-    rates(damper, driving, point + 1, moved(first, h / 2), second.data());
-    rates(damper, driving, point + 1, moved(second, h / 2), third.data());
-    rates(damper, driving, point + 2, moved(third, h), fourth.data());
+    rates(damper, driving, point + 1, moved(first, h / 2), second.data(), on_the_way);
+    rates(damper, driving, point + 1, moved(second, h / 2), third.data(), on_the_way);
+    rates(damper, driving, point + 2, moved(third, h), fourth.data(), on_the_way);
     for (std::size_t k = 0; k < count; ++k)
       state[k] += h / 6 * (first[k] + 2 * (second[k] + third[k]) + fourth[k]);
   }
@@ -233,35 +276,66 @@ bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const Plan
                                            std::vector<std::vector<double>>& shown,
                                            const RunBeside& beside) const {
   const double h = driving.sample_time / static_cast<double>(driving.steps);
-  const PlantStep plant({size_, damping_, stiffness_, by_force_, by_value_, by_rate_}, h);
-  DamperStep step(damper, h);
-  if (beside.keep) step.keep(*beside.keep);
-  if (beside.follow) step.follow(*beside.follow);
-  std::array<double, kMostStates> end, acceleration;
-  const std::span<double> own = state.subspan(2 * size_);
-  DamperInput from = damper_input(driving, 0, state.data());
-  double force = damper.force(from, own);
+  const std::size_t count = dampers_.size(), own = damper.state_size();
+  PlantNumbers numbers{size_, damping_, stiffness_, {}, by_value_, by_rate_};
+  for (const DamperPlace& place : dampers_) numbers.by_force.push_back(place.by_force);
+  const PlantStep plant(numbers, h);
 
+  // Each damper with its states, and what each newton at the end adds to its motion, of every one.
+  std::vector<DamperStep> steps(count, DamperStep(damper, h));
+  std::vector<std::span<double>> states;
+  std::array<Forces, kMostDampers> moves, hastens;
+  for (std::size_t d = 0; d < count; ++d) {
+    if (beside.keep) steps[d].keep(*beside.keep);
+    if (beside.follow) steps[d].follow(*beside.follow, d, count);
+    states.push_back(state.subspan(2 * size_ + d * own, own));
+    for (std::size_t e = 0; e < count; ++e) {
+      moves[d][e] = along(dampers_[d].row, plant.by_end_force(e).data());
+      hastens[d][e] = along(dampers_[d].row, plant.by_end_force(e).data() + size_);
+    }
+  }
+  std::array<DamperInput, kMostDampers> from;
+  Forces forces, next;
+  for (std::size_t d = 0; d < count; ++d) {
+    from[d] = damper_input(dampers_[d], driving, 0, state.data());
+    forces[d] = next[d] = damper.force(from[d], states[d]);
+  }
+
+  std::array<double, kMostStates> end, acceleration;
   for (std::size_t point = 0;; ++point) {
     if (point % driving.steps == 0) {
       const std::size_t sample = point / driving.steps;
-      accelerations(driving, point, state.data(), force, acceleration.data());
-      if (!show(driving, sample, sensors, state.data(), acceleration.data(), force, shown))
+      accelerations(driving, point, state.data(), forces.data(), acceleration.data());
+      if (!show(driving, sample, sensors, state.data(), acceleration.data(), forces.data(), shown))
         return false;
       if (sample + 1 == samples) return true;
     }
 
-    // Where the plant ends without a force at the end, and what each newton there adds.
-    plant.end_without_force({driving.value, driving.rate}, point, state.data(), force, end.data());
-    const DamperInput without = damper_input(driving, point + 1, end.data());
-    const std::vector<double>& per_newton = plant.by_end_force();
-    const double moves = along(row_, per_newton.data());
-    const double hastens = along(row_, per_newton.data() + size_);
+    // Where the plant ends without forces at the end; each damper's force there is that which it
+    // has after the motion which that force makes, beside what the others are expected to have.
+    plant.end_without_force({driving.value, driving.rate}, point, state.data(), forces.data(),
+                            end.data());
+    for (std::size_t d = 0; d < count; ++d) {
+      DamperInput without = damper_input(dampers_[d], driving, point + 1, end.data());
+      for (std::size_t e = 0; e < count; ++e) {
+        if (e == d) continue;
+        without.displacement += moves[d][e] * next[e];
+        without.velocity += hastens[d][e] * next[e];
+      }
+      next[d] =
+          steps[d].end_force({from[d], without, moves[d][d], hastens[d][d], forces[d]}, states[d]);
+    }
 
-    // The force that the damper has after the motion which that force makes.
-    force = step.end_force({from, without, moves, hastens, force}, own);
-    for (std::size_t k = 0; k < 2 * size_; ++k) state[k] = end[k] + per_newton[k] * force;
-    from = damper_input(driving, point + 1, state.data());
+    for (std::size_t k = 0; k < 2 * size_; ++k) {
+      state[k] = end[k];
+      for (std::size_t d = 0; d < count; ++d) state[k] += plant.by_end_force(d)[k] * next[d];
+    }
+    for (std::size_t d = 0; d < count; ++d) {
+      from[d] = damper_input(dampers_[d], driving, point + 1, state.data());
+      const double last = forces[d];
+      forces[d] = next[d];
+      next[d] = 2 * forces[d] - last;
+    }
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,20 +12,22 @@
 
 namespace dashpot {
 
-// A linear plant with one damper in it, run under measured inputs, several steps per sample. What
-// is not linear in it is the damper alone.
+// A linear plant with a damper in each of its struts, all alike, run under measured inputs, several
+// steps per sample. What is not linear in it are the dampers alone.
 
 /// What moves a plant from outside.
 enum class PlantInput {
   Force,              ///< N, on a coordinate
-  Ground,             ///< m, height under all tyres and under struts that stand on the ground
+  Ground,             ///< m, height under tyres and under struts that stand on the ground
   GroundAcceleration  ///< m/s^2, where the plant's coordinates are relative to the ground
 };
 
-/// One input in use: its kind, and, of a force, the coordinate that it pushes.
+/// One input in use: its kind, of a force the coordinate that it pushes, of a ground the tyre that
+/// stands on it (nothing: all of them).
 struct PlantInputPlace {
   PlantInput kind = PlantInput::Force;
   std::size_t coordinate = 0;
+  std::optional<std::size_t> tyre = {};
 };
 
 /// What a sensor on a plant shows.
@@ -31,20 +35,28 @@ enum class PlantQuantity {
   Displacement,        ///< m, of a coordinate (relative to ground that shakes)
   Velocity,            ///< m/s, likewise
   Acceleration,        ///< m/s^2, of a coordinate, absolute
-  Deflection,          ///< m, of the damper, extension positive
+  Deflection,          ///< m, of a damper, extension positive
   DeflectionVelocity,  ///< m/s
   DamperForce          ///< N, positive where it resists extension
 };
 
-/// The unit of what a sensor of this quantity shows, and of an input.
-std::string unit_of(PlantQuantity quantity);
-std::string unit_of(PlantInput input);
-
-/// A sensor's quantity and, where it is one of a coordinate, which.
+/// A sensor's quantity and, where it is one of a coordinate, which; else whose damper's.
 struct PlantSensorPlace {
   PlantQuantity quantity = PlantQuantity::Displacement;
   std::size_t coordinate = 0;
+  std::size_t strut = 0;
+
+  bool is_of_damper() const { return quantity >= PlantQuantity::Deflection; }
 };
+
+/// The unit of what a sensor of this quantity shows, of a plant whose coordinates are lengths or of
+/// any; and of an input.
+std::string unit_of(PlantQuantity quantity);
+std::string unit_of(const PlantSensorPlace& place, const Plant& plant);
+std::string unit_of(PlantInput input);
+
+/// Whether a plant's tyres meet the road at several places, each of which has a height of its own.
+bool has_several_roads(const Plant& plant);
 
 /// How plant and damper are brought over a step.
 enum class PlantMethod {
@@ -53,7 +65,8 @@ enum class PlantMethod {
   RungeKutta,
   /// The plant exactly under a force that goes straight over the step, the damper by its own step
   /// along the motion that this makes, and the force at the end such that both agree: of second
-  /// order, and stable however stiff the damper is (plant_step.h).
+  /// order, and stable however stiff the damper is (plant_step.h). Each of several dampers expects
+  /// of the others that their forces go on as they did over the step before.
   StraightForce
 };
 
@@ -81,44 +94,60 @@ struct RunBeside {
   const RunTangent* follow = nullptr;
 };
 
-/// The plant as numbers: q'' = forcing - C q' - K q - row F, all by the inverse of the mass.
+/// Where a damper stands in a plant of n coordinates.
+struct DamperPlace {
+  std::vector<double> row;        ///< n: its deflection
+  std::vector<double> by_force;   ///< n: of its force, by the inverse of the mass
+  std::vector<double> on_ground;  ///< per input: what it takes from the deflection
+};
+
+/// The plant as numbers: q'' = forcing - C q' - K q - sum of row F, all by the inverse of the mass.
 class DrivenPlant {
  public:
-  /// strut: the one with the damper. Throws Error where the plant is not linear (stops, friction, a
-  /// tyre that lifts), where its tyres meet the road at different times, and where an input finds
-  /// nothing to move.
-  DrivenPlant(const Plant& plant, std::size_t strut, std::span<const PlantInputPlace> inputs);
+  /// A damper stands in each strut. Throws Error where the plant is not linear (stops, friction, a
+  /// tyre that lifts), where an input does not say under which of several tyres it is, and where it
+  /// finds nothing to move.
+  DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> inputs);
 
   std::size_t size() const { return size_; }
+  const std::vector<DamperPlace>& dampers() const { return dampers_; }
+  /// The only one, for whoever knows no more.
+  const DamperPlace& damper() const;
 
-  /// Runs the plant from `state` (q, q', states of the damper) over the first so many samples;
-  /// `state` is then that at the last of them. Per sensor `shown` gets the samples. False where one
-  /// of them is not finite. By Runge-Kutta the damper must be one that flows.
+  /// Coordinates, velocities and the states of such dampers, with these at rest.
+  std::vector<double> at_rest(const DamperModel& damper, double drive) const;
+  /// Runs the plant with such dampers from `state` (q, q', states of each damper) over the first so
+  /// many samples; `state` is then that at the last of them. Per sensor `shown` gets the samples.
+  /// False where one of them is not finite. By Runge-Kutta the damper must be one that flows.
   bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, std::span<double> state,
            std::vector<std::vector<double>>& shown, const RunBeside& beside = {}) const;
-  /// Brings the states of the damper over the sample before the first one, at the velocity of that:
-  /// what a sharp hysteresis forgets at once is then no leap within the first step.
+  /// Brings the states of each damper over the sample before the first one, at the velocity of
+  /// that: what a sharp hysteresis forgets at once is then no leap within the first step.
   void settle(const DamperModel& damper, const PlantDriving& driving,
               std::span<double> state) const;
-  /// Stiffness along the damper's way, N/m: of the plant alone; and the mass that it moves, kg.
+  /// Stiffness along a damper's way, N/m: of the plant alone; and the mass that it moves, kg: the
+  /// means over the dampers.
   double stiffness_along() const;
-  double mass_along() const { return 1 / along(row_, by_force_.data()); }
+  double mass_along() const;
 
   // The numbers themselves, for whoever solves the equations in another way. Matrices are n x n,
   // by the inverse of the mass.
   const std::vector<double>& damping() const { return damping_; }
   const std::vector<double>& stiffness() const { return stiffness_; }
-  const std::vector<double>& by_force() const { return by_force_; }  ///< of the damper's, n
-  const std::vector<double>& deflection() const { return row_; }     ///< of the damper, n
   /// Per input what it pushes by its value and by its rate, and what it adds to an absolute
-  /// acceleration, n each; and what it takes from the deflection.
+  /// acceleration, n each.
   const std::vector<std::vector<double>>& by_value() const { return by_value_; }
   const std::vector<std::vector<double>>& by_rate() const { return by_rate_; }
   const std::vector<std::vector<double>>& carried() const { return carried_; }
-  const std::vector<double>& on_ground() const { return on_ground_; }
 
  private:
+  static constexpr std::size_t kMostDampers = 4, kMostStatesOfDamper = 16, kMostCoordinates = 24;
+  /// Room for the states of a plant and its dampers, so that stepping allocates nothing.
+  static constexpr std::size_t kMostStates =
+      2 * kMostCoordinates + kMostDampers * kMostStatesOfDamper;
+  using Forces = std::array<double, kMostDampers>;
+
   bool run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,
                           std::size_t samples, std::span<const PlantSensorPlace> sensors,
                           std::span<double> state, std::vector<std::vector<double>>& shown) const;
@@ -127,23 +156,21 @@ class DrivenPlant {
                                 std::span<double> state, std::vector<std::vector<double>>& shown,
                                 const RunBeside& beside) const;
   void accelerations(const PlantDriving& driving, std::size_t point, const double* state,
-                     double force, double* out) const;
+                     const double* forces, double* out) const;
   bool show(const PlantDriving& driving, std::size_t sample,
             std::span<const PlantSensorPlace> sensors, const double* state,
-            const double* acceleration, double force,
+            const double* acceleration, const double* forces,
             std::vector<std::vector<double>>& shown) const;
-  double rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
-               const double* state, double* out) const;
-  DamperInput damper_input(const PlantDriving& driving, std::size_t point,
+  void rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
+             const double* state, double* out, Forces& forces) const;
+  DamperInput damper_input(const DamperPlace& place, const PlantDriving& driving, std::size_t point,
                            const double* state) const;
 
   std::size_t size_ = 0;
   std::vector<double> damping_, stiffness_;  ///< by the inverse of the mass, n x n
-  std::vector<double> by_force_;             ///< n: of the damper's force
+  std::vector<DamperPlace> dampers_;
   /// Per input, n: of its value and of its rate.
   std::vector<std::vector<double>> by_value_, by_rate_;
-  std::vector<double> row_;        ///< deflection of the damper
-  std::vector<double> on_ground_;  ///< per input: what it takes from the deflection
   /// Per input, n: what it adds to an absolute acceleration.
   std::vector<std::vector<double>> carried_;
 };

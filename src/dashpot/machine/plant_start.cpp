@@ -169,17 +169,18 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
     values.emplace_back(setup.unknown[k].name, start.plant[k]);
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const DrivenPlant plant(make_plant(*setup.model, values), setup.strut, inputs);
+  const DrivenPlant plant(make_plant(*setup.model, values), inputs);
   const double stiffness = plant.stiffness_along();
   scale.stroke = scale.speed = scale.force = 1;
   const double dashpot = usual_dashpot(plant);
   const auto measure = [&](const std::vector<InPlantTrace>& traces) {
     scale.stroke = scale.speed = scale.force = 0;
-    for (const InPlantTrace& trace : traces) {
-      scale.stroke = std::max(scale.stroke, half_span(trace.deflection));
-      scale.speed = std::max(scale.speed, half_span(trace.velocity));
-      scale.force = std::max(scale.force, half_span(trace.force));
-    }
+    for (const InPlantTrace& trace : traces)
+      for (const DamperTrace& damper : trace.dampers) {
+        scale.stroke = std::max(scale.stroke, half_span(damper.deflection));
+        scale.speed = std::max(scale.speed, half_span(damper.velocity));
+        scale.force = std::max(scale.force, half_span(damper.force));
+      }
     return std::isfinite(scale.stroke) && scale.stroke > 0 && std::isfinite(scale.speed) &&
            scale.speed > 0;
   };

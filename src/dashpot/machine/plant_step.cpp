@@ -41,15 +41,18 @@ std::vector<double> beside(const std::vector<double>& response, std::size_t coun
 
 PlantStep::PlantStep(const PlantNumbers& plant, double length)
     : count_(2 * plant.size), length_(length), free_(count_ * count_) {
-  // The damper's force, which resists: its value at the start, and its change until the end.
-  std::vector<double> push = plant.by_force;
-  for (double& value : push) value = -value;
-  const std::vector<double> response = response_of(plant, push, length);
-  const std::vector<double> forced = beside(response, count_);
-  for (std::size_t i = 0; i < count_; ++i) {
-    std::copy_n(response.data() + i * (count_ + kCubic), count_, free_.data() + i * count_);
-    by_end_force_.push_back(forced[i * kCubic + 1]);
-    by_force_.push_back(forced[i * kCubic] - forced[i * kCubic + 1]);
+  // A damper's force, which resists: its value at the start, and its change until the end.
+  for (std::vector<double> push : plant.by_force) {
+    for (double& value : push) value = -value;
+    const std::vector<double> response = response_of(plant, push, length);
+    const std::vector<double> forced = beside(response, count_);
+    by_force_.emplace_back();
+    by_end_force_.emplace_back();
+    for (std::size_t i = 0; i < count_; ++i) {
+      std::copy_n(response.data() + i * (count_ + kCubic), count_, free_.data() + i * count_);
+      by_end_force_.back().push_back(forced[i * kCubic + 1]);
+      by_force_.back().push_back(forced[i * kCubic] - forced[i * kCubic + 1]);
+    }
   }
 
   // An input pushes by its value, and by its rate, whose coefficients are those of one power more.
@@ -65,9 +68,10 @@ PlantStep::PlantStep(const PlantNumbers& plant, double length)
 }
 
 void PlantStep::end_without_force(const PlantInputSamples& inputs, std::size_t point,
-                                  const double* state, double force, double* end) const {
+                                  const double* state, const double* forces, double* end) const {
   for (std::size_t i = 0; i < count_; ++i) {
-    double sum = by_force_[i] * force;
+    double sum = by_force_[0][i] * forces[0];
+    for (std::size_t d = 1; d < by_force_.size(); ++d) sum += by_force_[d][i] * forces[d];
     for (std::size_t k = 0; k < count_; ++k) sum += free_[i * count_ + k] * state[k];
     end[i] = sum;
   }
@@ -127,7 +131,11 @@ double DamperStep::answer(const DamperMotion& motion, double force, std::span<co
 }
 
 double DamperStep::end_force(const DamperMotion& motion, std::span<double> state) {
-  if (followed_) return solve_beside(motion, (*followed_)[step_++], state);
+  if (followed_) {
+    const StepTangent& beside = (*followed_)[step_];
+    step_ += every_;
+    return solve_beside(motion, beside, state);
+  }
   if (!kept_) return solve(motion, state);
   States before;
   std::ranges::copy(state, before.begin());

@@ -8,14 +8,15 @@
 
 namespace dashpot {
 
-// One step of a plant and the damper in it, apart. Over the step the damper's force goes straight,
+// One step of a plant and a damper in it, apart. Over the step the damper's force goes straight,
 // so that the linear plant is brought over it exactly; the damper follows the motion that this
 // makes by whatever is stable for it. The two meet in one number, the force at the end.
 
 /// The numbers of a linear plant (plant_run.h), n x n and n, by the inverse of its mass.
 struct PlantNumbers {
   std::size_t size;  ///< n
-  const std::vector<double>&damping, &stiffness, &by_force;
+  const std::vector<double>&damping, &stiffness;
+  std::vector<std::vector<double>> by_force;                  ///< per damper
   const std::vector<std::vector<double>>&by_value, &by_rate;  ///< per input
 };
 
@@ -30,18 +31,20 @@ class PlantStep {
  public:
   PlantStep(const PlantNumbers& plant, double length);
 
-  /// The end, from `state` at `point`, for a force that falls straight to 0.
+  /// The end, from `state` at `point`, for forces of the dampers that fall straight to 0.
   void end_without_force(const PlantInputSamples& inputs, std::size_t point, const double* state,
-                         double force, double* end) const;
-  /// What each newton at the end adds.
-  const std::vector<double>& by_end_force() const { return by_end_force_; }
+                         const double* forces, double* end) const;
+  /// What each newton of a damper at the end adds.
+  const std::vector<double>& by_end_force(std::size_t damper) const {
+    return by_end_force_[damper];
+  }
 
  private:
   std::size_t count_;  ///< of states
   double length_;
-  std::vector<double> free_;      ///< count x count
-  std::vector<double> by_force_;  ///< of a newton at the start
-  std::vector<double> by_end_force_;
+  std::vector<double> free_;  ///< count x count
+  /// Per damper, of a newton at the start and at the end.
+  std::vector<std::vector<double>> by_force_, by_end_force_;
   /// Per input, count x 4: of the coefficients of the cubic, each over its factorial.
   std::vector<std::vector<double>> by_input_;
 };
@@ -59,7 +62,7 @@ struct StepTangent {
   double force = 0, answer = 0;
   std::array<double, 16> states = {};
 };
-/// Over all steps of a run.
+/// Over all steps of a run, in each damper by damper.
 using RunTangent = std::vector<StepTangent>;
 
 /// A damper's way over steps of one length.
@@ -69,9 +72,13 @@ class DamperStep {
 
   /// From now on each step is kept in `tangent`, behind those that are there, at two answers of
   /// the damper more; or each step begins beside that of `tangent`, of a run that differs hardly,
-  /// so that one answer is enough.
+  /// so that one answer is enough. There this damper's steps are the first, `every` ones apart.
   void keep(RunTangent& tangent) { kept_ = &tangent; }
-  void follow(const RunTangent& tangent) { followed_ = &tangent; }
+  void follow(const RunTangent& tangent, std::size_t first, std::size_t every) {
+    followed_ = &tangent;
+    step_ = first;
+    every_ = every;
+  }
 
   /// The force at the end, at which the damper arrives under the motion that this force makes;
   /// `state` is brought there. Found by the secant method, between bounds where the law resists.
@@ -98,7 +105,7 @@ class DamperStep {
   bool is_first_ = true;
   RunTangent* kept_ = nullptr;
   const RunTangent* followed_ = nullptr;
-  std::size_t step_ = 0;
+  std::size_t step_ = 0, every_ = 1;
   double beyond_ = 0;  ///< what the step before ended above the one that is followed, N
 };
 

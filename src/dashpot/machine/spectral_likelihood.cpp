@@ -265,7 +265,7 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
   const Ride& ride = prepared_[which];
   const InPlantSetup setup = setup_at(x);
   const ObserverNoise uncertain = noise(x);
-  const DrivenPlant plant(make_plant(*setup.model, setup.known), setup.strut, inputs_);
+  const DrivenPlant plant(make_plant(*setup.model, setup.known), inputs_);
   const auto roads = static_cast<std::size_t>(std::ranges::count_if(
       setup.inputs, [](const PlantInputChannel& one) { return one.road.has_value(); }));
   const std::size_t n = plant.size(), m = sensors(), lines = ride.end - ride.first,
@@ -284,7 +284,7 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
     at.move_to(kTurn * static_cast<double>(line) / ride.duration);
 
     // The force of the law, with its errors, and the sensors' noise.
-    at.of_force(shows);
+    at.of_force(0, shows);
     add_noise(shows, error_density(uncertain, at.w()), covariance);
     for (std::size_t s = 0; s < m; ++s) {
       beyond[s] = scale * (ride.shown[s][line] - shows[s] * force.rest[line]);

@@ -61,8 +61,13 @@ PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
     std::vector<double> value(driving.points()), rate(driving.points());
     const bool is_road = setup.inputs[u].place.kind == PlantInput::Ground;
     GroundPointer ground;
+
+    // All tyres go over one road, each where it is.
+    const std::optional<std::size_t> under = setup.inputs[u].place.tyre;
+    const std::size_t track = under ? plant.tyres[*under].track : 0;
+    const double behind = under ? plant.tyres[*under].behind : 0;
     if (!options.road.empty() && setup.inputs[u].place.kind != PlantInput::Force)
-      ground = make_ground(options.road, seed + u, "--road");
+      ground = make_ground(options.road, under ? seed : seed + u, "--road");
     if (ground && ground->shakes() == is_road)
       throw Error("--road",
                   "'" + options.road + "' is " + (is_road ? "an acceleration" : "a height") +
@@ -74,7 +79,7 @@ PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
     for (std::size_t k = 0; k < value.size(); ++k) {
       const double t = step * static_cast<double>(k);
       if (is_road) {
-        const FootMotion foot = ground->foot(t, 0, 0);
+        const FootMotion foot = ground->foot(t, track, behind);
         value[k] = foot.height;
         rate[k] = foot.velocity;
       } else {
@@ -164,16 +169,19 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
   const Plant plant = make_plant(*setup.model, setup.known);
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const DrivenPlant equations(plant, setup.strut, inputs);
-  const std::string strut = plant.struts[setup.strut].name;
+  const DrivenPlant equations(plant, inputs);
 
   // The sensors, then what is true.
   std::vector<PlantSensorPlace> places;
   for (const PlantSensor& sensor : setup.sensors) places.push_back(sensor.place);
-  std::vector<std::pair<std::string, PlantSensorPlace>> true_places = {
-      {"damper_force", {PlantQuantity::DamperForce, 0}},
-      {strut + "_deflection", {PlantQuantity::Deflection, 0}},
-      {strut + "_velocity", {PlantQuantity::DeflectionVelocity, 0}}};
+  std::vector<std::pair<std::string, PlantSensorPlace>> true_places;
+  for (std::size_t d = 0; d < plant.struts.size(); ++d) {
+    const std::string& strut = plant.struts[d].name;
+    const std::string whose = plant.struts.size() > 1 ? strut + "_" : "";
+    true_places.push_back({whose + "damper_force", {PlantQuantity::DamperForce, 0, d}});
+    true_places.push_back({strut + "_deflection", {PlantQuantity::Deflection, 0, d}});
+    true_places.push_back({strut + "_velocity", {PlantQuantity::DeflectionVelocity, 0, d}});
+  }
   for (std::size_t q = 0; q < plant.size(); ++q) {
     true_places.push_back({plant.coordinates[q].name, {PlantQuantity::Displacement, q}});
     true_places.push_back({plant.coordinates[q].name + "_velocity", {PlantQuantity::Velocity, q}});
@@ -193,8 +201,7 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
     PlantDriving driving =
         driving_of(setup, plant, options, level, options.push > 0 ? options.push : usual, seed);
     if (options.hold > 0) switch_levels(options, driving);
-    std::vector<double> state(2 * plant.size() + mounted->state_size());
-    mounted->rest({0, 0, level}, std::span(state).subspan(2 * plant.size()));
+    std::vector<double> state = equations.at_rest(*mounted, level);
     std::vector<std::vector<double>> shown;
     if (!equations.run(*mounted, driving, driving.samples, places, state, shown))
       throw Error("the ride at " + format_number(level) + " " + to_string(setup.drive_unit),
@@ -217,7 +224,10 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
       const std::vector<double> values = sampled(fine, samples, 0);
       const PlantInputChannel& input = setup.inputs[u];
       const std::string unit = unit_of(input.place.kind);
-      if (input.place.kind == PlantInput::Ground) add_channel(ride.truth, "road", unit, values);
+      if (input.place.kind == PlantInput::Ground)
+        add_channel(ride.truth,
+                    input.place.tyre ? plant.tyres[*input.place.tyre].name + "_road" : "road", unit,
+                    values);
       if (!input.road)
         add_channel(ride.recorded, input.channel, unit, with_noise(values, input.noise, noise));
     }
@@ -226,7 +236,7 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
       const double zero = (sensor.zero > 0 ? sensor.zero : sensor.noise) * noise.normal();
       std::vector<double> values = sampled(shown[s], samples, sensor.delay / driving.sample_time);
       for (double& value : values) value += zero;
-      add_channel(ride.recorded, sensor.channel, unit_of(sensor.place.quantity),
+      add_channel(ride.recorded, sensor.channel, unit_of(sensor.place, plant),
                   with_noise(std::move(values), sensor.noise, noise));
     }
     if (!setup.drive.empty()) {
@@ -236,7 +246,7 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
       add_channel(ride.recorded, setup.drive, to_string(setup.drive_unit), std::move(drive));
     }
     for (std::size_t k = 0; k < true_places.size(); ++k)
-      add_channel(ride.truth, true_places[k].first, unit_of(true_places[k].second.quantity),
+      add_channel(ride.truth, true_places[k].first, unit_of(true_places[k].second, plant),
                   sampled(shown[setup.sensors.size() + k], samples, 0));
     rides.push_back(std::move(ride));
   }

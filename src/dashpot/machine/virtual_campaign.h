@@ -38,7 +38,8 @@ struct VirtualCampaignOptions {
 
 /// What sensors recorded of a plant, and what was true at the same instants: "damper_force", the
 /// damper's "suspension_deflection" and "suspension_velocity" (by the name of its place),
-/// coordinates and their velocities, and "road".
+/// coordinates and their velocities, and "road"; of several dampers "front_damper_force" and so on,
+/// of several roads "front_tyre_road".
 struct VirtualRide {
   Record recorded, truth;
 };

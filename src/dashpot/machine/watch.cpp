@@ -63,6 +63,7 @@ ChartOptions share_of(const WatchOptions& options, std::size_t charts) {
 }  // namespace
 
 void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
+  require_one_damper(setup, "'watch'");
   const auto follows = [&](const char* name) {
     return std::ranges::find(options.wears, name) != options.wears.end();
   };

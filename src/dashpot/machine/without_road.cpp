@@ -188,9 +188,10 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
     InPlantTrace trace{.recording = told.name,
                        .sample_time = told.sample_time,
                        .training = task.fitted[r].samples};
-    trace.force = told.quantities[0].value;
-    trace.deflection = told.quantities[1].value;
-    trace.velocity = told.quantities[2].value;
+    trace.dampers = {{.strut = make_plant(*found.model, found.known).struts.front().name,
+                      .deflection = told.quantities[1].value,
+                      .velocity = told.quantities[2].value,
+                      .force = told.quantities[0].value}};
     for (const DamperInput& input : motion_of(found, task.fitted[r], told))
       trace.current.push_back(input.current);
     report.traces.push_back(std::move(trace));
