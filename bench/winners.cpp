@@ -1,4 +1,5 @@
-// Prints the table "Is the best on inner folds the best outside?" of docs/accuracy.md.
+// Prints the tables "Is the best on inner folds the best outside?" and, with --few, "Named from two
+// records" of docs/accuracy.md.
 //
 //   bench_winners [--models A,B,...] [--epochs N] [--few N [--draws N]] [TRUTH ...]
 //
@@ -8,7 +9,7 @@
 // turn; then each is judged on what no ranking has seen: other motions, other currents, a current
 // that switches. --epochs: updates of the passive network's training, 1 600 unless told.
 // --few: so many of the twelve records at random, four times unless --draws says otherwise, and
-// judged on the rest of them as well: the second table.
+// judged on the rest of them as well.
 
 #include <algorithm>
 #include <array>
@@ -44,9 +45,9 @@ struct Case {
   double force_drift;     ///< N, from record to record
   double sensor_lag = 0;  ///< s, of the force channel
 };
-constexpr std::array kCases{Case{"series_spring", 0.01, 30},       Case{"asymmetric_valves", 0.01, 30},
-                            Case{"sticky_seals", 0.005, 30},       Case{"slow_coil", 0.02, 30},
-                            Case{"fading", 0.01, 100},             Case{"bypass", 0.01, 30, 0.005}};
+constexpr std::array kCases{Case{"series_spring", 0.01, 30}, Case{"asymmetric_valves", 0.01, 30},
+                            Case{"sticky_seals", 0.005, 30}, Case{"slow_coil", 0.02, 30},
+                            Case{"fading", 0.01, 100},       Case{"bypass", 0.01, 30, 0.005}};
 
 BenchOptions bench_of(const Case& one, std::uint64_t seed) {
   return {.sample_rate = 100,
@@ -94,8 +95,8 @@ Dataset outside(const DamperModel& truth, const Case& one) {
   std::vector<BenchTest> tests;
   add_sines(tests, bench, {0.4, 1.5});
   tests.push_back(under_sequence(
-      sequence_test("FM,amplitude=10mm,speed_max=0.5,duration=8,modulation=0.1", bench.seed), "PRBS",
-      {.low = 0, .high = kCurrentMax, .duration = 8, .seed = bench.seed}));
+      sequence_test("FM,amplitude=10mm,speed_max=0.5,duration=8,modulation=0.1", bench.seed),
+      "PRBS", {.low = 0, .high = kCurrentMax, .duration = 8, .seed = bench.seed}));
   return run_virtual_bench(truth, DriveUnit::Ampere, tests, bench);
 }
 
@@ -131,10 +132,10 @@ void print_case(const Case& one, const std::vector<Row>& rows) {
   std::fflush(stdout);
 }
 
-/// What a rule names, as a multiple of the least error that any of the models has there; geometric
-/// means of all draws.
+/// What a rule names, as a multiple of the least error that any of the models has there: the
+/// logarithms, summed over all draws.
 struct Regret {
-  double rest = 0, outside = 0;  ///< logarithms, summed
+  double rest = 0, outside = 0;
   void add(double to_best_rest, double to_best_outside) {
     // One that runs away counts as a thousandfold.
     rest += std::log(std::min(to_best_rest, 1000.0));
@@ -165,15 +166,18 @@ void print_few(const Case& one, const DamperModel& truth, const std::vector<std:
 
     // What each model leaves of the rest, and of what came afterwards.
     std::vector<double> of_rest, of_there;
-    std::size_t passive_place = 0;  // of the passive network where it cannot be told from the first
     for (const RankedModel& model : ranking.models) {
       if (!is_recommendable(model)) break;
-      if (model.name == "passive_network" && (!model.behind || model.behind->holds_zero()))
-        passive_place = of_rest.size();
       of_rest.push_back(evaluate(*model.fit.model, rest.records, rest.drive_unit).pooled.esr);
       of_there.push_back(evaluate(*model.fit.model, there.records, there.drive_unit).pooled.esr);
     }
     if (of_rest.empty()) throw Error(std::string(one.truth), "no model may be named");
+
+    // The passive network stands where it cannot be told from the first, else the first again.
+    std::size_t passive_place = 0;
+    for (const RankedModel* leader : ranking.leaders())
+      if (leader->name == "passive_network")
+        passive_place = static_cast<std::size_t>(leader - ranking.models.data());
     const double least_rest = std::ranges::min(of_rest), least_there = std::ranges::min(of_there);
     first.add(of_rest.front() / least_rest, of_there.front() / least_there);
     passive.add(of_rest[passive_place] / least_rest, of_there[passive_place] / least_there);
@@ -196,9 +200,8 @@ void print_details(const std::vector<Row>& rows) {
 int run(const std::vector<std::string>& arguments) {
   // The options, then the truths; all six unless some are named.
   std::size_t few = 0, draws = 4;
-  std::vector<std::string> models = {"bingham",           "tanh_kwok",
-                                     "large_scale_bouc_wen", "modified_bouc_wen",
-                                     "passive_network",   "hysteresis_network"};
+  std::vector<std::string> models = {"bingham",           "tanh_kwok",       "large_scale_bouc_wen",
+                                     "modified_bouc_wen", "passive_network", "hysteresis_network"};
   std::vector<std::string> truths;
   IdentifyOptions options{.threads = 1};
   for (std::size_t k = 0; k < arguments.size(); ++k) {
@@ -214,6 +217,9 @@ int run(const std::vector<std::string>& arguments) {
     else
       truths.push_back(arguments[k]);
   }
+  constexpr std::size_t kRecords = 12;  // of recorded()
+  if (few >= kRecords || draws == 0)
+    throw Error("--few, --draws", "nothing is left to judge", "fewer than 12, and one or more");
   for (const std::string& name : truths)
     if (std::ranges::find(kCases, name, &Case::truth) == kCases.end())
       throw Error(name, "is none of the dampers", "series_spring, asymmetric_valves, ...");
@@ -224,8 +230,9 @@ int run(const std::vector<std::string>& arguments) {
         "among equals: afterwards |\n|---|---:|---:|---:|---:|\n");
   else
     fmt::print(
-      "| damper | named inside | ESR % inside | outside | best outside | ESR % | named / best | rank "
-      "correlation |\n|---|---|---:|---:|---|---:|---:|---:|\n");
+        "| damper | named inside | ESR % inside | outside | best outside | ESR % | named / best | "
+        "rank correlation |\n|---|---|---:|---:|---|---:|---:|---:|\n");
+
   for (const Case& one : kCases) {
     if (!truths.empty() && std::ranges::find(truths, one.truth) == truths.end()) continue;
     const auto truth =
@@ -235,9 +242,8 @@ int run(const std::vector<std::string>& arguments) {
       continue;
     }
     const Dataset inside = recorded(*truth, one);
-    const std::vector<Row> rows =
-        judged(rank(models, inside, {.by = LeaveOut::By::Condition}, options),
-               outside(*truth, one));
+    const std::vector<Row> rows = judged(
+        rank(models, inside, {.by = LeaveOut::By::Condition}, options), outside(*truth, one));
     if (rows.empty()) {
       fmt::print("| {} | none may be named | | | | | | |\n", one.truth);
       continue;

@@ -115,6 +115,8 @@ DocumentTable sensor_table(const InPlantReport& report) {
 std::vector<std::string> knowable_lines(const InPlantReport& report) {
   std::vector<std::string> lines;
   const Knowable& known = report.knowable;
+
+  // What these sensors tell of the unknowns.
   if (!known.singular_values.empty())
     lines.push_back(fmt::format(
         "Before the fit: {} unknowns, singular values of their sensitivities from {} to {}.",
@@ -131,6 +133,8 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
         "along the damper's motion that they tell.");
     return lines;
   }
+
+  // How it was integrated, and how well.
   lines.push_back(fmt::format(
       "Integrated {}, {} steps per sample; half the step changes the worst sensor by {} % of its "
       "error.",

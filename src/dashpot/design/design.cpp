@@ -38,8 +38,9 @@ class DesignRun {
   /// The places of the designs to go on from, as far as they hold the constraints.
   std::vector<std::vector<double>> earlier_places() const;
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
-  /// Whether not even the drawn damper, without tolerances, comes near to the constraints of a
-  /// fitted model: found within seconds, where a robust search would take minutes to say the same.
+  /// Whether not even the drawn damper, without tolerances, comes near to the constraints: found
+  /// within seconds, where a search that rides, or a robust one by a fitted model, would take
+  /// minutes to say the same.
   bool is_hopeless();
   /// Finds the constraints that conflict, or a place that holds all of them after all.
   std::vector<std::vector<double>> explain();

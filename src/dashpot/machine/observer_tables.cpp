@@ -282,7 +282,8 @@ ObserverNames observer_names(const InPlantSetup& setup, const DamperModel& dampe
       names.states.push_back(coordinate.name + suffix);
       names.state_units.push_back(coordinate.unit + rate);
     }
-  constexpr const char* kInputUnits[] = {"N", "m", "m/s^2"};  // in the order of PlantInput
+
+  // A road that nothing measures is a state, all other inputs are channels; then the sensors.
   for (const PlantInputChannel& input : in_order(setup)) {
     if (input.road) {
       names.states.emplace_back("road");
@@ -290,11 +291,11 @@ ObserverNames observer_names(const InPlantSetup& setup, const DamperModel& dampe
       continue;
     }
     names.inputs.push_back(input.channel);
-    names.input_units.emplace_back(kInputUnits[static_cast<std::size_t>(input.place.kind)]);
+    names.input_units.push_back(unit_of(input.place.kind));
   }
   for (const PlantSensor& sensor : setup.sensors) {
     names.sensors.push_back(sensor.channel);
-    names.sensor_units.push_back(unit_of(sensor.place.quantity));
+    names.sensor_units.push_back(unit_of(sensor.place, plant));
   }
   return names;
 }

@@ -13,6 +13,7 @@ void invert(std::vector<Complex>& a, std::vector<Complex>& inverse, std::size_t 
   inverse.assign(n * n, 0);
   for (std::size_t k = 0; k < n; ++k) inverse[k * n + k] = 1;
   for (std::size_t k = 0; k < n; ++k) {
+    // The row with the largest number in this column comes up, and that number becomes 1.
     std::size_t pivot = k;
     for (std::size_t i = k + 1; i < n; ++i)
       if (std::norm(a[i * n + k]) > std::norm(a[pivot * n + k])) pivot = i;
@@ -25,6 +26,8 @@ void invert(std::vector<Complex>& a, std::vector<Complex>& inverse, std::size_t 
       a[k * n + j] *= scale;
       inverse[k * n + j] *= scale;
     }
+
+    // It is taken off all other rows.
     for (std::size_t i = 0; i < n; ++i) {
       const Complex factor = a[i * n + k];
       if (i == k || factor == 0.0) continue;
