@@ -43,7 +43,7 @@ TEST_CASE("invert: recordings teach it, and what was not measured is said" *
   CHECK(contains(wrong.output, "gives V, but the damper takes A"));
 }
 
-TEST_CASE("invert: wrong command lines") {
+TEST_CASE("invert: wrong command lines" * doctest::test_suite("long")) {
   const struct {
     const char *arguments, *message;
     int exit_code;

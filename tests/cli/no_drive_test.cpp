@@ -97,7 +97,8 @@ TEST_CASE("a model without a drive is evaluated on such recordings again, with t
   CHECK_CLOSE(again, file.quality.find("training")->find("esr_percent")->as_number(), 1e-6, 0);
 }
 
-TEST_CASE("a model without a drive is ranked, exported and driven as a passive damper is") {
+TEST_CASE("a model without a drive is ranked, exported and driven as a passive damper is" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string to = (folder.path() / "out").string();
   const auto works = [](const std::string& arguments) {

@@ -25,7 +25,8 @@ const char* const kRoadlessCar =
 
 }  // namespace
 
-TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor showed") {
+TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor showed" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string car = folder.write("car.yaml", kRoadlessCar).string(),
                     rides = (folder.path() / "rides").string(),

@@ -22,7 +22,7 @@ TEST_CASE("--report FILE.pdf and --pdf: refused before the work where no browser
   CHECK(contains(fit.output, "Debian's package chromium"));
 }
 
-TEST_CASE("--report FILE.pdf: the page, printed") {
+TEST_CASE("--report FILE.pdf: the page, printed" * doctest::test_suite("long")) {
   if (run_program("command -v chromium").exit_code != 0) {
     MESSAGE("skipped: chromium is not installed");
     return;

@@ -18,7 +18,8 @@ TEST_CASE("physics: every step with its unit, as text and as JSON") {
   CHECK(json.find("velocity")->as_number() == 0.034);
 }
 
-TEST_CASE("physics: fields can be changed, listed, and are refused with their names") {
+TEST_CASE("physics: fields can be changed, listed, and are refused with their names" *
+          doctest::test_suite("long")) {
   const std::string wide = run_dashpot("physics passenger_car --set gap=2mm").output;
   CHECK(wide != run_dashpot("physics passenger_car").output);
   CHECK(contains(run_dashpot("physics --fields").output, "passive_length"));
@@ -29,7 +30,8 @@ TEST_CASE("physics: fields can be changed, listed, and are refused with their na
   CHECK(run_dashpot("physics").exit_code == 2);
 }
 
-TEST_CASE("physics: a fluid and a steel of one's own, and overrides that no current changes") {
+TEST_CASE("physics: a fluid and a steel of one's own, and overrides that no current changes" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string fluid =
       folder

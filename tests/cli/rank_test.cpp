@@ -142,7 +142,8 @@ TEST_CASE("rank --plant: a second order, by the ride, on the screen, in JSON and
   CHECK(split(lines[0], ',').size() == split(lines[1], ',').size());
 }
 
-TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit") {
+TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& options, int code, const std::string& message) {
     const ProgramResult result = run_dashpot(rank_of("bingham", folder.path()) + " " + options);

@@ -22,7 +22,7 @@ TEST_CASE("ride: two controllers against passive, with a page") {
   CHECK(parse_json(read_file(out + "/report.json"), "report").find("held")->items().size() == 2);
 }
 
-TEST_CASE("ride: wrong command lines") {
+TEST_CASE("ride: wrong command lines" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const struct {
     const char *arguments, *message;

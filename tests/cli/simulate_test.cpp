@@ -59,7 +59,7 @@ TEST_CASE("simulate: what there is to choose from") {
   CHECK(parse_json(json.output, "stdout").items().size() >= 13);
 }
 
-TEST_CASE("simulate: wrong command lines") {
+TEST_CASE("simulate: wrong command lines" * doctest::test_suite("long")) {
   const struct {
     const char *arguments, *message;
     int exit_code;

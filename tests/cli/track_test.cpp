@@ -57,7 +57,7 @@ TEST_CASE("track: a recording's motion and force, a model file, curves and a pic
   CHECK(contains(read_file(curves + "/track.svg"), "<svg"));
 }
 
-TEST_CASE("track: wrong command lines") {
+TEST_CASE("track: wrong command lines" * doctest::test_suite("long")) {
   const struct {
     const char *arguments, *message;
     int exit_code;

@@ -85,7 +85,7 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
                  "plant"));
 }
 
-TEST_CASE("watch: what cannot be is said before the work") {
+TEST_CASE("watch: what cannot be is said before the work" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string plant = folder.write("plant.yaml", kWatchedMass).string(),
                     model = (folder.path() / "model.json").string();

@@ -10,7 +10,7 @@ std::string dataset_file(const std::string& entry) {
 
 }  // namespace
 
-TEST_CASE("dataset files that cannot be used") {
+TEST_CASE("dataset files that cannot be used" * doctest::test_suite("long")) {
   const auto with = [](const std::string& text) {
     return std::vector<std::pair<std::string, std::string>>{{"r_1A.csv", csv()},
                                                             {"dataset.yaml", text}};

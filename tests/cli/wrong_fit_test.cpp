@@ -10,7 +10,7 @@ const std::string kFit = "identify DIR --models bingham --quiet --output DIR/res
 
 }  // namespace
 
-TEST_CASE("recordings that no model can be fitted to") {
+TEST_CASE("recordings that no model can be fitted to" * doctest::test_suite("long")) {
   const Wrong table[] = {
       {"no current beside one",
        {{"a_1Hz.csv", csv(drop_current, 300, "t_s,x_mm,F_N\n")}, {"b_2Hz.csv", csv()}},
@@ -61,7 +61,7 @@ TEST_CASE("recordings that no model can be fitted to") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
-TEST_CASE("options that no model to be fitted takes") {
+TEST_CASE("options that no model to be fitted takes" * doctest::test_suite("long")) {
   const auto fit = [](const std::string& option, const std::string& said) {
     return Wrong{option, {{"a_1Hz.csv", csv()}, {"b_2Hz.csv", csv()}}, kFit + option, 2, {said}};
   };

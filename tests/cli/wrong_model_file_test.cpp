@@ -3,7 +3,7 @@
 
 using namespace dashpot;
 
-TEST_CASE("model files that cannot be used") {
+TEST_CASE("model files that cannot be used" * doctest::test_suite("long")) {
   const TemporaryFolder fitted;
   const std::string folder = fitted.path().string();
   REQUIRE(run_dashpot("identify " + small_campaign().string() +

@@ -15,7 +15,7 @@ std::string cut_mat() {
 
 }  // namespace
 
-TEST_CASE("recordings that cannot be used") {
+TEST_CASE("recordings that cannot be used" * doctest::test_suite("long")) {
   const Wrong table[] = {
       {"a missing column",
        {{"r.csv", csv(drop_force, 300, "t_s,x_mm,i_A\n")}},
@@ -110,7 +110,8 @@ TEST_CASE("recordings that cannot be used") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
-TEST_CASE("recordings that are doubtful are read, and the doubt is said") {
+TEST_CASE("recordings that are doubtful are read, and the doubt is said" *
+          doctest::test_suite("long")) {
   const Wrong table[] = {
       {"kN called N",
        {{"r.csv", csv(scaled(2, 1e-3))}},

@@ -89,7 +89,8 @@ std::string refusal_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("JavaScript: every kind of model gives the library's force within 1e-12 of its span") {
+TEST_CASE("JavaScript: every kind of model gives the library's force within 1e-12 of its span" *
+          doctest::test_suite("long")) {
   if (!has_node()) return;
   const TemporaryFolder folder;
   for (const ExampleModel& one : example_models())
@@ -197,7 +198,7 @@ for (const v of [-0.3, -0.02, 0, 0.05, 0.1]) for (const i of [-1, 0, 0.2, 0.5, 3
   CHECK(numbers_in(run_program("node '" + ask.string() + "'").output) == std::vector<double>{1});
 }
 
-TEST_CASE("JavaScript: C means there what a compiler takes it for") {
+TEST_CASE("JavaScript: C means there what a compiler takes it for" * doctest::test_suite("long")) {
   if (!has_node() || !is_there("cc")) return;
   for (
       const char* text :

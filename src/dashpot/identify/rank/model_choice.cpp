@@ -60,7 +60,7 @@ constexpr std::array kKindCosts{
     KindCost{ModelKind::Fuzzy,
              {.per_fit = 0.1, .per_thousand_samples = 0.04, .most_thousands = 20}},
 };
-constexpr FitCost kOtherCost{.per_fit = 2, .per_thousand_samples = 0.3};
+constexpr FitCost kOtherCost{.per_fit = 2, .per_thousand_samples = 0.3, .varying = 2};
 
 FitCost cost_of(const std::string& model) {
   const auto own = std::ranges::find(kModelCosts, model, &ModelCost::model);
@@ -124,9 +124,15 @@ NetworkDesign design_of(const FitWords& words, const std::string& where) {
 }  // namespace
 
 const std::vector<std::string>& usual_models() {
-  static const std::vector<std::string> names = {
-      "bingham",         "tanh_kwok",          "large_scale_bouc_wen", "modified_bouc_wen",
-      "passive_network", "hysteresis_network", "extended_bingham",     "neural_state_space"};
+  static const std::vector<std::string> names = {"bingham",
+                                                 "tanh_kwok",
+                                                 "large_scale_bouc_wen",
+                                                 "modified_bouc_wen",
+                                                 "passive_network",
+                                                 "hysteresis_network",
+                                                 "extended_bingham",
+                                                 "modified_bouc_wen+network",
+                                                 "neural_state_space"};
   return names;
 }
 
