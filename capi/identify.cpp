@@ -35,14 +35,19 @@ ModelFile fitted_file(FitReport fit, const Dataset& dataset, const FitOptions& o
   return file;
 }
 
-/// The recordings that a model is judged on, with the forces that it was fitted to. Throws Error
-/// where one is driven in A and the other in V.
-Dataset judged_recordings(const dashpot_model& model, const dashpot_recordings* recordings,
-                          const EvaluateWords& asked) {
-  Dataset dataset = usable_dataset(recordings);
-  require_same_drive(model.file, dataset, model.name);
-  if (!asked.keep_inertia) take_off_inertia(model.file, dataset);
-  return dataset;
+/// The recordings that a model is judged on, with the forces that it was fitted to, and of how many
+/// that meant taking the inertia off.
+struct JudgedRecordings {
+  Dataset dataset;
+  std::size_t without_inertia = 0;
+};
+/// Throws Error where the model is driven in A and the recordings in V, or the other way round.
+JudgedRecordings judged_recordings(const dashpot_model& model, const dashpot_recordings* recordings,
+                                   const EvaluateWords& asked) {
+  JudgedRecordings judged{.dataset = usable_dataset(recordings)};
+  require_same_drive(model.file, judged.dataset, model.name);
+  if (!asked.keep_inertia) judged.without_inertia = take_off_inertia(model.file, judged.dataset);
+  return judged;
 }
 
 /// Fits the only model asked for. Throws NotUsable where the fit gives none; the report is there
@@ -183,7 +188,7 @@ dashpot_status dashpot_traces(const dashpot_model* model, const dashpot_recordin
     *made = nullptr;
     require(model, "model");
     const EvaluateWords asked = read_evaluate_options(options);
-    const Dataset dataset = judged_recordings(*model, recordings, asked);
+    const Dataset dataset = judged_recordings(*model, recordings, asked).dataset;
     const Evaluation evaluation =
         evaluate(*model->damper, dataset.records, dataset.drive_unit, asked.options);
 
@@ -209,13 +214,14 @@ dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_record
     // The model runs over every recording with the band that its file keeps.
     EvaluateWords asked = read_evaluate_options(options);
     asked.options.band = model->file.interval;
-    const Dataset dataset = judged_recordings(*model, recordings, asked);
+    const JudgedRecordings judged = judged_recordings(*model, recordings, asked);
+    const Dataset& dataset = judged.dataset;
     const Evaluation evaluation =
         evaluate(*model->damper, dataset.records, dataset.drive_unit, asked.options);
 
     // The report comes even where the model diverged, as it says on which recordings.
-    *report = copy_text(
-        json_text(evaluation_json(model->file, evaluation, extrapolations(model->file, dataset))));
+    *report = copy_text(json_text(evaluation_json(
+        model->file, evaluation, extrapolations(model->file, dataset), judged.without_inertia)));
 
     if (evaluation.diverged > 0)
       throw NotUsable(model->name, "diverged on " + std::to_string(evaluation.diverged) + " of " +

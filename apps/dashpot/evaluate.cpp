@@ -73,7 +73,8 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   // The recordings must be driven in the unit that the model takes.
   Dataset dataset = load_recordings(settings.data, console);
   require_same_drive(file, dataset, settings.model);
-  if (const std::size_t changed = settings.keep_inertia ? 0 : take_off_inertia(file, dataset))
+  const std::size_t changed = settings.keep_inertia ? 0 : take_off_inertia(file, dataset);
+  if (changed > 0)
     console.note("the model was fitted to forces without the inertia of " +
                  format_number(file.moving_mass, 3) +
                  " kg between load cell and damper: it is taken off " + std::to_string(changed) +
@@ -88,7 +89,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   console.check_stop();
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
 
-  Value data = evaluation_json(file, evaluation, outside);
+  Value data = evaluation_json(file, evaluation, outside, changed);
   data.add("records_seen", seen_records(file.provenance, dataset));
   const Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
   Document document = evaluation_document(report_input(dataset, ranking, settings.units, console));

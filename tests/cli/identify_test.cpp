@@ -161,6 +161,8 @@ TEST_CASE("evaluate: takes off the inertia that the model's fit took off, says s
 
   CHECK(contains(run_dashpot(command).output, "without the inertia of 20 kg"));
   CHECK_FALSE(contains(run_dashpot(command + " --keep-inertia").output, "inertia of 20 kg"));
+  const Value told = parse_json(stdout_of_dashpot(command + " --json").output, "evaluate --json");
+  CHECK(told.find("without_inertia")->find("mass_kg")->as_number() == 20);
 
   // The campaign has no such mass, so that taking it off adds an error.
   const double plain = rmse("evaluate " + (small_results() / "models/bingham.json").string() + " " +

@@ -176,9 +176,12 @@ Value evaluation_json(const Evaluation& evaluation) {
 }
 
 Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
-                      const std::vector<Extrapolation>& outside) {
+                      const std::vector<Extrapolation>& outside, std::size_t without_inertia) {
   Value value = evaluation_json(evaluation);
   value.add("model", file.model->name());
+  if (without_inertia > 0)
+    value.add("without_inertia",
+              Value::object({{"mass_kg", file.moving_mass}, {"records", without_inertia}}));
   value.add("outside_domain", to_json(outside));
   value.add("outside_family", Value::array(outside_family(evaluation)));
   std::vector<ResidualTest> tests;

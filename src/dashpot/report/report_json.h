@@ -10,9 +10,10 @@ Value dataset_json(const Dataset& dataset);
 
 /// A model's figures: pooled, by velocity band and by record.
 Value evaluation_json(const Evaluation& evaluation);
-/// And the model's name, and where it extrapolates: what `dashpot evaluate --json` prints.
+/// And the model's name, where it extrapolates, and of how many records the inertia was taken off:
+/// what `dashpot evaluate --json` prints.
 Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
-                      const std::vector<Extrapolation>& outside);
+                      const std::vector<Extrapolation>& outside, std::size_t without_inertia);
 
 /// Tests of the residuals with their statistics, limits and verdicts, record by record.
 Value residual_tests_json(const std::vector<ResidualTest>& tests);
