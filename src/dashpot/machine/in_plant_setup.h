@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,9 +51,13 @@ struct PlantSensor {
   double delay = 0;          ///< s, known or where the search starts
 };
 
+struct PlantOfMatrices;
+
 /// What is known of a plant, and what was measured on it.
 struct InPlantSetup {
   const PlantModel* model = nullptr;
+  /// Where the plant is none of the shipped kinds: what holds its model (plant_of_matrices.h).
+  std::shared_ptr<const PlantOfMatrices> matrices = nullptr;
   NamedValues known;  ///< SI; what is neither known nor unknown is as in the table
   std::vector<PlantUnknown> unknown;
   std::vector<PlantInputChannel> inputs;

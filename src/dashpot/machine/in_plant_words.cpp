@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/plant_of_matrices.h"
 #include "dashpot/suspension/ground/road_profile.h"
 #include "dashpot/value.h"
 
@@ -235,6 +236,25 @@ void read_parameters(InPlantSetup& setup, const Value& parameters) {
   }
 }
 
+/// The plant: one of the kinds, or matrices; and what is known and unknown of it.
+void read_plant(InPlantSetup& setup, ObjectReader& reader, const std::string& source) {
+  const std::string kind = reader.string("plant");
+  const Value* parameters = reader.optional("parameters");
+  if (kind != kOfMatrices) {
+    setup.model = &find_machine(kind, source + ", plant");
+    if (parameters) read_parameters(setup, *parameters);
+    return;
+  }
+  std::vector<std::string> names;
+  if (parameters)
+    for (const auto& [name, value] : parameters->members()) names.push_back(name);
+  const std::shared_ptr<PlantOfMatrices> matrices = read_plant_of_matrices(reader, names, source);
+  setup.model = &matrices->model;
+  setup.matrices = matrices;
+  if (parameters) read_parameters(setup, *parameters);
+  settle_unknowns(*matrices, setup, source);
+}
+
 /// The noise of a sensor or an input, or how far its zero may be off.
 double read_deviation(ObjectReader& reader, std::string_view key, std::string_view unit) {
   const Value* noise = reader.optional(key);
@@ -296,8 +316,7 @@ InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& sour
   const Value value = parse_yaml(text, source);
   ObjectReader reader(value, "a plant with its sensors");
   InPlantSetup setup;
-  setup.model = &find_machine(reader.string("plant"), source + ", plant");
-  if (const Value* parameters = reader.optional("parameters")) read_parameters(setup, *parameters);
+  read_plant(setup, reader, source);
   const Plant plant = make_plant(*setup.model, setup.known, source);
   for (const Value& input : reader.required("inputs").items())
     setup.inputs.push_back(read_input(input, plant));
@@ -392,10 +411,12 @@ Value to_json(const InPlantSetup& setup) {
       one.add("delay", sensor.delay);
     sensors.push_back(std::move(one));
   }
-  Value file = Value::object({{"plant", setup.model->name},
-                              {"parameters", std::move(parameters)},
-                              {"inputs", std::move(inputs)},
-                              {"sensors", std::move(sensors)}});
+  Value file = Value::object({{"plant", setup.model->name}});
+  if (setup.matrices)
+    for (const auto& [key, value] : setup.matrices->file) file.add(key, value);
+  file.add("parameters", std::move(parameters));
+  file.add("inputs", std::move(inputs));
+  file.add("sensors", std::move(sensors));
   if (setup.drive_unit != DriveUnit::None) {
     const std::string key = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current";
     file.add(key, setup.drive.empty() ? Value(setup.level) : Value(setup.drive));
