@@ -17,6 +17,7 @@
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
+#include "dashpot/machine/road_follower.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/without_road.h"
 
@@ -314,10 +315,11 @@ const Law& law_for_plant(const std::string& name, const std::string& where) {
 }
 
 InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
-                                const std::vector<PlantRecording>& recordings,
+                                const std::vector<PlantRecording>& as_recorded,
                                 const InPlantOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
+  const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
   if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
   InPlantReport report;
 

@@ -40,6 +40,10 @@ struct PlantInputChannel {
   PlantInputPlace place;
   double noise = 0;  ///< standard deviation of what it measures, SI; 0: unknown (beside_noise.h)
   std::optional<RoadPrior> road = {};
+  /// Of a road that another axle met before: the channel of that, and how much later it comes, s.
+  /// Its own channel is then one that with_followers() makes.
+  std::string follows = {};
+  double later = 0;
 };
 
 struct PlantSensor {
@@ -78,7 +82,8 @@ struct InPlantSetup {
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
-/// For what knows a single damper. Throws Error "has 2 dampers, and `who` follows one".
+/// For what knows a single damper, and no road that follows another one. Throws Error "has 2
+/// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);
 /// Whether an input is a road that nothing measures.
 bool has_unmeasured_road(const InPlantSetup& setup);

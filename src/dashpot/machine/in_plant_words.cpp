@@ -276,11 +276,37 @@ RoadPrior read_road(ObjectReader& reader, const std::string& kind, const Value& 
   return road;
 }
 
+/// A road that another axle met before: how much later, as a time or by wheelbase and speed.
+void read_follower(ObjectReader& reader, PlantInputChannel& input, const std::string& at,
+                   const Value& value) {
+  if (!input.channel.empty())
+    throw Error(value.where(), "has a channel and follows another one", "one of both");
+  input.follows = reader.string("follows");
+  input.channel = input.follows + " at " + at;
+  const Value* delay = reader.optional("delay");
+  const Value* wheelbase = reader.optional("wheelbase");
+  const Value* speed = reader.optional("speed");
+  const std::string right = "delay: 0.14 s, or wheelbase: 2.8 m with speed: 20 m/s";
+  const bool by_speed = wheelbase && speed;
+  if ((delay != nullptr) == by_speed || (delay && (wheelbase || speed)))
+    throw Error(value.where(), "says not how much later it meets the road", right);
+  if (delay && delay->kind() == Value::Kind::String && delay->as_string() == "unknown")
+    throw Error(delay->where(), "is unknown, and that of a road is not looked for", right);
+  input.later = delay ? read_quantity(*delay, "s")
+                      : read_quantity(*wheelbase, "m") / read_quantity(*speed, "m/s");
+}
+
 PlantInputChannel read_input(const Value& value, const Plant& plant) {
   ObjectReader reader(value, "an input");
   PlantInputChannel input{.channel = reader.string("channel", ""), .place = {}};
   const std::string kind = reader.string("kind"), at = reader.string("at", "");
   const PlantInput* known = find_input(kind);
+  if (reader.optional("follows")) {
+    read_follower(reader, input, at, value);
+    if (known) input.place = input_place(*known, plant, at, value.where());
+    reader.finish();
+    return input;
+  }
   if (input.channel.empty()) input.road = read_road(reader, kind, value);
   if (known && !input.road) input.noise = read_deviation(reader, "noise", unit_of(*known));
   reader.finish();
@@ -376,7 +402,12 @@ Value to_json(const InPlantSetup& setup) {
   Value inputs = Value::array();
   for (const PlantInputChannel& input : setup.inputs) {
     Value one = Value::object();
-    if (!input.road) one.add("channel", input.channel);
+    if (!input.follows.empty()) {
+      one.add("follows", input.follows);
+      one.add("delay", input.later);
+    } else if (!input.road) {
+      one.add("channel", input.channel);
+    }
     one.add("kind", kInputWords[static_cast<std::size_t>(input.place.kind)].first);
     if (input.place.kind == PlantInput::Force)
       one.add("at", plant.coordinates[input.place.coordinate].name);
