@@ -9,7 +9,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
-#include "dashpot/machine/observe.h"
+#include "dashpot/machine/road_delay.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/simulate.h"
@@ -117,6 +117,17 @@ TEST_CASE("a road that follows: a half car is found of whose rear wheel no road 
   CHECK(late.sensors[2].training > 3 * report.sensors[2].training);
 }
 
+TEST_CASE("a road that follows: a speed that is known to some percents is found") {
+  const InPlantSetup setup = parse_in_plant_setup(
+      followed_with("delay: 0.14 s", "wheelbase: 2.8 m, speed: {about: 20.8 m/s}"), "half.yaml");
+  CHECK(setup.inputs[1].later == doctest::Approx(0.1346).epsilon(1e-3));
+  const InPlantSetup found =
+      with_found_road_delay(find_law("tanh_kwok"), setup, {simulated_ride(2, 2e-4)}, {.grade = ""});
+  CHECK_CLOSE(found.inputs[1].later, 0.14, 0, 2e-4);
+  CHECK_FALSE(looks_for_road_delay(found));
+  CHECK(contains(format_json(to_json(setup)), "\"about\": 0.13461"));
+}
+
 TEST_CASE("a road that follows: a virtual ride has it so, and does not record it") {
   InPlantSetup setup = parse_in_plant_setup(followed_with("delay: 0.14 s", "delay: 50 ms"), "a");
   for (const PlantUnknown& unknown : setup.unknown)
@@ -145,7 +156,8 @@ TEST_CASE("a road that follows: what is wrong is named with what would be right"
   CHECK(contains(wrong(", delay: 0.14 s", ""),
                  "says not how much later it meets the road; delay: 0.14 s, or wheelbase: 2.8 m"));
   CHECK(contains(wrong("delay: 0.14 s", "delay: 0.14 s, speed: 20 m/s"), "says not how much"));
-  CHECK(contains(wrong("delay: 0.14 s", "delay: unknown"), "that of a road is not looked for"));
+  CHECK(contains(wrong("delay: 0.14 s", "delay: unknown"),
+                 "is unknown, and nothing says where it is expected; {about: ...}"));
   CHECK(contains(wrong("delay: 0.14 s", "delay: -1 s"), "follows by no time"));
   CHECK(contains(wrong("delay: 0.14 s", "wheelbase: 2.8 m, speed: 0"), "follows by no time"));
   CHECK(contains(wrong("delay: 0.14 s", "delay: 0.14 s, noise: 1 mm"), "noise"));

@@ -44,6 +44,7 @@ struct PlantInputChannel {
   /// Its own channel is then one that with_followers() makes.
   std::string follows = {};
   double later = 0;
+  bool finds_later = false;  ///< `later` is where the search for it starts
 };
 
 struct PlantSensor {

@@ -287,13 +287,22 @@ void read_follower(ObjectReader& reader, PlantInputChannel& input, const std::st
   const Value* wheelbase = reader.optional("wheelbase");
   const Value* speed = reader.optional("speed");
   const std::string right = "delay: 0.14 s, or wheelbase: 2.8 m with speed: 20 m/s";
+  const auto read_about = [&](const Value& number, const char* unit) {
+    if (number.kind() == Value::Kind::String && number.as_string() == "unknown")
+      throw Error(number.where(), "is unknown, and nothing says where it is expected",
+                  "{about: ...}, within a tenth of it");
+    if (number.kind() != Value::Kind::Object) return read_quantity(number, unit);
+    ObjectReader about(number, "what is not quite known");
+    const double expected = read_quantity(about.required("about"), unit);
+    about.finish();
+    input.finds_later = true;
+    return expected;
+  };
   const bool by_speed = wheelbase && speed;
   if ((delay != nullptr) == by_speed || (delay && (wheelbase || speed)))
     throw Error(value.where(), "says not how much later it meets the road", right);
-  if (delay && delay->kind() == Value::Kind::String && delay->as_string() == "unknown")
-    throw Error(delay->where(), "is unknown, and that of a road is not looked for", right);
-  input.later = delay ? read_quantity(*delay, "s")
-                      : read_quantity(*wheelbase, "m") / read_quantity(*speed, "m/s");
+  input.later =
+      delay ? read_about(*delay, "s") : read_quantity(*wheelbase, "m") / read_about(*speed, "m/s");
 }
 
 PlantInputChannel read_input(const Value& value, const Plant& plant) {
@@ -404,7 +413,8 @@ Value to_json(const InPlantSetup& setup) {
     Value one = Value::object();
     if (!input.follows.empty()) {
       one.add("follows", input.follows);
-      one.add("delay", input.later);
+      one.add("delay",
+              input.finds_later ? Value::object({{"about", input.later}}) : Value(input.later));
     } else if (!input.road) {
       one.add("channel", input.channel);
     }
@@ -461,6 +471,11 @@ Value to_json(const InPlantSetup& setup) {
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
   for (const FittedParameter& p : report.plant) setup.known.emplace_back(p.name, p.value);
   setup.unknown.clear();
+  for (PlantInputChannel& input : setup.inputs) {
+    for (const FittedParameter& p : report.nuisances)
+      if (input.finds_later && p.name == "delay of " + input.channel) input.later = p.value;
+    input.finds_later = false;
+  }
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     PlantSensor& sensor = setup.sensors[s];
     for (const FittedParameter& p : report.nuisances)

@@ -14,7 +14,8 @@ std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& foll
 }
 
 std::vector<PlantRecording> with_followers(const InPlantSetup& setup,
-                                           const std::vector<PlantRecording>& recordings) {
+                                           const std::vector<PlantRecording>& recordings,
+                                           double longest) {
   std::vector<PlantRecording> all = recordings;
   for (PlantRecording& one : all) {
     std::size_t unknown = 0;
@@ -27,7 +28,8 @@ std::vector<PlantRecording> with_followers(const InPlantSetup& setup,
       one.channels.push_back(std::move(later));
 
       // Until what the front met first is met, and known between samples.
-      const auto behind = static_cast<std::size_t>(std::ceil(input.later / one.sample_time));
+      const auto behind =
+          static_cast<std::size_t>(std::ceil(std::max(input.later, longest) / one.sample_time));
       unknown = std::max(unknown, behind + kSamplesAround);
     }
     if (unknown >= one.samples)

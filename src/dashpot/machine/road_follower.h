@@ -15,8 +15,10 @@ std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& foll
 
 /// The recordings with a channel for each input that follows another one, which is that of the
 /// other, later. Without their beginning, in which a rear axle was still on a road that no channel
-/// has shown; unchanged where nothing follows. Throws Error where no time is left.
+/// has shown, as where `longest` s is one more delay; unchanged where nothing follows. Throws Error
+/// where no time is left.
 std::vector<PlantRecording> with_followers(const InPlantSetup& setup,
-                                           const std::vector<PlantRecording>& recordings);
+                                           const std::vector<PlantRecording>& recordings,
+                                           double longest = 0);
 
 }  // namespace dashpot
