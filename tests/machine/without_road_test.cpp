@@ -41,9 +41,9 @@ std::vector<PlantRecording> spencer_rides(double seconds) {
   std::vector<PlantRecording> recordings;
   for (const VirtualRide& ride : virtual_campaign(truth, load_parameters("spencer1997"),
                                                   {.duration = seconds,
-                                                  .levels = {0, 1},
-                                                  .road = "iso8608,class=C,speed=20m/s",
-                                                  .seed = 31}))
+                                                   .levels = {0, 1},
+                                                   .road = "iso8608,class=C,speed=20m/s",
+                                                   .seed = 31}))
     recordings.push_back({.name = ride.recorded.name,
                           .sample_time = ride.recorded.sample_time,
                           .samples = ride.recorded.size(),

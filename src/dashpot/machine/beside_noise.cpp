@@ -132,7 +132,7 @@ EndOfSearch end_of(const LeastSquaresProblem& problem, const LeastSquaresReport&
 /// What the damper may show beside its law: a force that follows its deflection, or its velocity.
 struct MoreForce {
   const char *name, *unit;
-  std::vector<double> DamperTrace::*follows;
+  std::vector<double> DamperTrace::* follows;
 };
 constexpr std::array kMore = {MoreForce{"spring", "N/m", &DamperTrace::deflection},
                               MoreForce{"dashpot", "N*s/m", &DamperTrace::velocity}};

@@ -5,7 +5,6 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/machine/road_follower.h"
 
 namespace dashpot {
 
@@ -143,6 +142,11 @@ void require_setup(const InPlantSetup& setup) {
                 "a share of the time from 0 to below 0.9");
   if (!(setup.skip >= 0))
     throw Error(where + ", skip", "is " + format_number(setup.skip), "0 s or more");
+}
+
+std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower) {
+  const auto found = std::ranges::find(setup.inputs, follower.follows, &PlantInputChannel::channel);
+  return static_cast<std::size_t>(found - setup.inputs.begin());
 }
 
 bool has_unmeasured_road(const InPlantSetup& setup) {

@@ -8,7 +8,6 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/machine/between_samples.h"
 #include "dashpot/machine/plant_run.h"
-#include "dashpot/machine/road_follower.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/numerics/spectrum.h"

@@ -1,10 +1,8 @@
 #include "dashpot/machine/road_delay.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"

@@ -1,9 +1,12 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_recording.h"
 
 namespace dashpot {
+
+struct Law;
 
 /// Whether the delay of a road that follows another one is to be found.
 bool looks_for_road_delay(const InPlantSetup& setup);

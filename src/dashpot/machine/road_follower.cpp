@@ -8,11 +8,6 @@
 
 namespace dashpot {
 
-std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower) {
-  const auto found = std::ranges::find(setup.inputs, follower.follows, &PlantInputChannel::channel);
-  return static_cast<std::size_t>(found - setup.inputs.begin());
-}
-
 std::vector<PlantRecording> with_followers(const InPlantSetup& setup,
                                            const std::vector<PlantRecording>& recordings,
                                            double longest) {

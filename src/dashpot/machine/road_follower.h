@@ -1,5 +1,4 @@
 #pragma once
-#include <cstddef>
 #include <vector>
 
 #include "dashpot/machine/in_plant_setup.h"
@@ -9,9 +8,6 @@ namespace dashpot {
 
 // A rear axle meets the road that the front axle met a little before: wheelbase over speed. Where
 // the road under the front is measured, nobody need measure the one under the rear.
-
-/// Which input another one follows: the place in the setup of the one whose channel it names.
-std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower);
 
 /// The recordings with a channel for each input that follows another one, which is that of the
 /// other, later. Without their beginning, in which a rear axle was still on a road that no channel

@@ -8,7 +8,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/ground_motion.h"
-#include "dashpot/machine/road_follower.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/plants/linear.h"
