@@ -295,7 +295,7 @@ TEST_CASE("a plant of matrices: what is wrong is named with what would be right"
                  "rig.yaml, parameters, kk: stands in no matrix"));
   CHECK(contains(wrong("ks: 37.3 N/mm", "ks: 37.3 kg"), "it is counted in N/m"));
   CHECK(contains(wrong("{about: 250 kN/m, from: 100 kN/m, to: 600 kN/m}", "unknown"),
-                 "kt: is unknown, and nothing says where it is expected; {about: 20 kN/m}"));
+                 "kt: is unknown, and nothing says where it is expected; {about: ...} in N/m"));
 
   // Places.
   CHECK(contains(wrong("from: wheel", "from: weel"), "no coordinate 'weel'; did you mean 'wheel'"));

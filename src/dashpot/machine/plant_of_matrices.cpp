@@ -517,13 +517,14 @@ void settle_unknowns(PlantOfMatrices& plant, InPlantSetup& setup, const std::str
     const bool has_range = unknown.lower > -kWidest && unknown.upper < kWidest;
     if (!unknown.about && has_range && unknown.lower > 0)
       unknown.about = std::sqrt(unknown.lower * unknown.upper);
+    ParameterRow& row = rows[row_named(rows, unknown.name, kOfMatrices, where)];
     if (!unknown.about || (!has_range && *unknown.about <= 0))
       throw Error(where + ", parameters, " + unknown.name,
                   "is unknown, and nothing says where it is expected",
-                  "{about: 20 kN/m}, above 0, or with from: and to:");
+                  "{about: ...} in " + std::string(row.unit) + ", above 0, or with from: and to:");
     if (unknown.lower <= -kWidest) unknown.lower = *unknown.about / kFar;
     if (unknown.upper >= kWidest) unknown.upper = *unknown.about * kFar;
-    rows[row_named(rows, unknown.name, kOfMatrices, where)].value = *unknown.about;
+    row.value = *unknown.about;
   }
 
   // What is so at all corners of the ranges is so between them: these sets of matrices are convex.
