@@ -61,6 +61,7 @@ InPlantSetup true_setup(InPlantSetup setup, const PlantBenchSettings& settings) 
   for (PlantSensor& sensor : setup.sensors)
     if (sensor.finds_delay && sensor.delay == 0) sensor.delay = kUsualDelay;
   for (PlantSensor& sensor : setup.sensors) sensor.finds_delay = false;
+  for (PlantInputChannel& input : setup.inputs) input.finds_later = false;
   return setup;
 }
 

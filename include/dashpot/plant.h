@@ -6,6 +6,7 @@
 // Dashpot. SI, z up; a row has one value per coordinate, a matrix n x n stands row by row.
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -85,7 +86,7 @@ struct PlantModel {
   std::string_view name, title, equation, source, remarks;
   std::vector<ParameterRow> parameters;
   /// values: one per row of the table, within its bounds.
-  Plant (*make)(std::span<const double> values) = nullptr;
+  std::function<Plant(std::span<const double> values)> make;
 };
 /// Every kind in alphabetical order; they live as long as the program.
 std::span<const PlantModel* const> plant_models();

@@ -372,8 +372,9 @@ void add_noise(const InPlantSetup& setup, const NoiseFound& found, InPlantReport
     add("noise of " + setup.sensors[s].channel, unit_of(setup.sensors[s].place, plant),
         found.sources.sensors[s]);
   for (std::size_t u = 0; u < setup.inputs.size(); ++u)
-    add("noise of " + setup.inputs[u].channel, unit_of(setup.inputs[u].place.kind),
-        found.sources.inputs[u]);
+    if (setup.inputs[u].follows.empty())
+      add("noise of " + setup.inputs[u].channel, unit_of(setup.inputs[u].place.kind),
+          found.sources.inputs[u]);
   for (std::size_t e = 0; e < force_memories().size(); ++e)
     add("error of the force over " + format_number(force_memories()[e]) + " s", "N",
         found.sources.force[e]);

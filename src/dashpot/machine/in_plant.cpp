@@ -17,6 +17,8 @@
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
+#include "dashpot/machine/road_delay.h"
+#include "dashpot/machine/road_follower.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/without_road.h"
 
@@ -304,6 +306,23 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
   }
 }
 
+/// The delays of roads that were found, whose uncertainty the intervals do not know.
+void add_road_delays(const InPlantSetup& asked, const InPlantSetup& found, InPlantReport& report) {
+  for (std::size_t u = 0; u < found.inputs.size(); ++u) {
+    if (!asked.inputs[u].finds_later) continue;
+    const double later = found.inputs[u].later;
+    report.nuisances.push_back({.name = "delay of " + found.inputs[u].channel,
+                                .unit = "s",
+                                .meaning = "found first, then held",
+                                .value = later,
+                                .low = later,
+                                .high = later});
+    report.warnings.push_back(
+        found.inputs[u].channel + ": its delay was found to be " + format_number(1000 * later, 5) +
+        " ms, and is then held: intervals of other numbers do not know of it");
+  }
+}
+
 }  // namespace
 
 const Law& law_for_plant(const std::string& name, const std::string& where) {
@@ -314,10 +333,18 @@ const Law& law_for_plant(const std::string& name, const std::string& where) {
 }
 
 InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
-                                const std::vector<PlantRecording>& recordings,
+                                const std::vector<PlantRecording>& as_recorded,
                                 const InPlantOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
+  if (looks_for_road_delay(setup)) {
+    const InPlantSetup found = with_found_road_delay(law, setup, as_recorded, options);
+    InPlantReport report = identify_in_plant(law, found, as_recorded, options);
+    add_road_delays(setup, found, report);
+    report.seconds = cpu_seconds() - started;
+    return report;
+  }
+  const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
   if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
   InPlantReport report;
 

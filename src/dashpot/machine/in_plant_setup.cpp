@@ -1,6 +1,7 @@
 #include "dashpot/machine/in_plant_setup.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -12,7 +13,8 @@ std::vector<std::string> InPlantSetup::channels() const {
   const auto add = [&](const std::string& name) {
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
-  for (const PlantInputChannel& input : inputs) add(input.channel);
+  for (const PlantInputChannel& input : inputs)
+    if (input.follows.empty()) add(input.channel);
   for (const PlantSensor& sensor : sensors) add(sensor.channel);
   add(drive);
   return names;
@@ -25,9 +27,32 @@ void require_one_damper(const InPlantSetup& setup, const std::string& who) {
     throw Error("plant " + std::string(setup.model->name),
                 "has " + std::to_string(dampers) + " dampers, and " + who + " knows one",
                 "a plant with one strut, as quarter_car");
+  for (const PlantInputChannel& input : setup.inputs)
+    if (!input.follows.empty())
+      throw Error("plant, " + input.channel, who + " knows no road that follows another one",
+                  "a channel with the height of this one");
 }
 
 namespace {
+
+/// A road that follows another one: it is measured, and was so before the recording began.
+void require_followed(const InPlantSetup& setup, const PlantInputChannel& input,
+                      const std::string& where) {
+  if (input.place.kind != PlantInput::Ground || !input.place.tyre)
+    throw Error(where, "follows another input",
+                "only a road does, under a plant that meets it at several places");
+  const std::size_t place = followed_by(setup, input);
+  const bool is_road = place < setup.inputs.size() && !input.follows.empty() &&
+                       setup.inputs[place].place.kind == PlantInput::Ground;
+  if (!is_road || !setup.inputs[place].follows.empty())
+    throw Error(where, "follows '" + input.follows + "', which is no channel of a road",
+                "follows: the channel of the road under the axle before it");
+  if (!(input.later > 0 && std::isfinite(input.later)))
+    throw Error(where, "follows by no time", "a delay above 0: wheelbase over speed");
+  if (setup.from_rest)
+    throw Error(where, "follows another road, so that the plant moved before the recording began",
+                "leave 'start: rest' out, or measure this road too");
+}
 
 /// Each place where tyres meet the road has a road of its own, or the road does not move at all.
 void require_roads(const InPlantSetup& setup, const Plant& plant, const std::string& where) {
@@ -95,6 +120,7 @@ void require_setup(const InPlantSetup& setup) {
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) {
     inputs.push_back(input.place);
+    if (!input.follows.empty()) require_followed(setup, input, where + ", " + input.channel);
     if (input.road) require_one_damper(setup, "a fit beside a road that nothing measures");
     if (input.road && plant.struts.front().track)
       throw Error(where, "the damper stands on a ground that nothing measures",
@@ -116,6 +142,11 @@ void require_setup(const InPlantSetup& setup) {
                 "a share of the time from 0 to below 0.9");
   if (!(setup.skip >= 0))
     throw Error(where + ", skip", "is " + format_number(setup.skip), "0 s or more");
+}
+
+std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower) {
+  const auto found = std::ranges::find(setup.inputs, follower.follows, &PlantInputChannel::channel);
+  return static_cast<std::size_t>(found - setup.inputs.begin());
 }
 
 bool has_unmeasured_road(const InPlantSetup& setup) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,11 @@ struct PlantInputChannel {
   PlantInputPlace place;
   double noise = 0;  ///< standard deviation of what it measures, SI; 0: unknown (beside_noise.h)
   std::optional<RoadPrior> road = {};
+  /// Of a road that another axle met before: the channel of that, and how much later it comes, s.
+  /// Its own channel is then one that with_followers() makes.
+  std::string follows = {};
+  double later = 0;
+  bool finds_later = false;  ///< `later` is where the search for it starts
 };
 
 struct PlantSensor {
@@ -50,9 +56,13 @@ struct PlantSensor {
   double delay = 0;          ///< s, known or where the search starts
 };
 
+struct PlantOfMatrices;
+
 /// What is known of a plant, and what was measured on it.
 struct InPlantSetup {
   const PlantModel* model = nullptr;
+  /// Where the plant is none of the shipped kinds: what holds its model (plant_of_matrices.h).
+  std::shared_ptr<const PlantOfMatrices> matrices = nullptr;
   NamedValues known;  ///< SI; what is neither known nor unknown is as in the table
   std::vector<PlantUnknown> unknown;
   std::vector<PlantInputChannel> inputs;
@@ -73,8 +83,12 @@ struct InPlantSetup {
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
-/// For what knows a single damper. Throws Error "has 2 dampers, and `who` follows one".
+/// For what knows a single damper, and no road that follows another one. Throws Error "has 2
+/// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);
+/// Which input a road follows: the place in the setup of the one whose channel it names; behind
+/// the last where there is none.
+std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower);
 /// Whether an input is a road that nothing measures.
 bool has_unmeasured_road(const InPlantSetup& setup);
 

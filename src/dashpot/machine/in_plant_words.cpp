@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/plant_of_matrices.h"
 #include "dashpot/suspension/ground/road_profile.h"
 #include "dashpot/value.h"
 
@@ -235,6 +236,25 @@ void read_parameters(InPlantSetup& setup, const Value& parameters) {
   }
 }
 
+/// The plant: one of the kinds, or matrices; and what is known and unknown of it.
+void read_plant(InPlantSetup& setup, ObjectReader& reader, const std::string& source) {
+  const std::string kind = reader.string("plant");
+  const Value* parameters = reader.optional("parameters");
+  if (kind != kOfMatrices) {
+    setup.model = &find_machine(kind, source + ", plant");
+    if (parameters) read_parameters(setup, *parameters);
+    return;
+  }
+  std::vector<std::string> names;
+  if (parameters)
+    for (const auto& [name, value] : parameters->members()) names.push_back(name);
+  const std::shared_ptr<PlantOfMatrices> matrices = read_plant_of_matrices(reader, names, source);
+  setup.model = &matrices->model;
+  setup.matrices = matrices;
+  if (parameters) read_parameters(setup, *parameters);
+  settle_unknowns(*matrices, setup, source);
+}
+
 /// The noise of a sensor or an input, or how far its zero may be off.
 double read_deviation(ObjectReader& reader, std::string_view key, std::string_view unit) {
   const Value* noise = reader.optional(key);
@@ -256,11 +276,46 @@ RoadPrior read_road(ObjectReader& reader, const std::string& kind, const Value& 
   return road;
 }
 
+/// A road that another axle met before: how much later, as a time or by wheelbase and speed.
+void read_follower(ObjectReader& reader, PlantInputChannel& input, const std::string& at,
+                   const Value& value) {
+  if (!input.channel.empty())
+    throw Error(value.where(), "has a channel and follows another one", "one of both");
+  input.follows = reader.string("follows");
+  input.channel = input.follows + " at " + at;
+  const Value* delay = reader.optional("delay");
+  const Value* wheelbase = reader.optional("wheelbase");
+  const Value* speed = reader.optional("speed");
+  const std::string right = "delay: 0.14 s, or wheelbase: 2.8 m with speed: 20 m/s";
+  const auto read_about = [&](const Value& number, const char* unit) {
+    if (number.kind() == Value::Kind::String && number.as_string() == "unknown")
+      throw Error(number.where(), "is unknown, and nothing says where it is expected",
+                  "{about: ...}, within a tenth of it");
+    if (number.kind() != Value::Kind::Object) return read_quantity(number, unit);
+    ObjectReader about(number, "what is not quite known");
+    const double expected = read_quantity(about.required("about"), unit);
+    about.finish();
+    input.finds_later = true;
+    return expected;
+  };
+  const bool by_speed = wheelbase && speed;
+  if ((delay != nullptr) == by_speed || (delay && (wheelbase || speed)))
+    throw Error(value.where(), "says not how much later it meets the road", right);
+  input.later =
+      delay ? read_about(*delay, "s") : read_quantity(*wheelbase, "m") / read_about(*speed, "m/s");
+}
+
 PlantInputChannel read_input(const Value& value, const Plant& plant) {
   ObjectReader reader(value, "an input");
   PlantInputChannel input{.channel = reader.string("channel", ""), .place = {}};
   const std::string kind = reader.string("kind"), at = reader.string("at", "");
   const PlantInput* known = find_input(kind);
+  if (reader.optional("follows")) {
+    read_follower(reader, input, at, value);
+    if (known) input.place = input_place(*known, plant, at, value.where());
+    reader.finish();
+    return input;
+  }
   if (input.channel.empty()) input.road = read_road(reader, kind, value);
   if (known && !input.road) input.noise = read_deviation(reader, "noise", unit_of(*known));
   reader.finish();
@@ -296,8 +351,7 @@ InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& sour
   const Value value = parse_yaml(text, source);
   ObjectReader reader(value, "a plant with its sensors");
   InPlantSetup setup;
-  setup.model = &find_machine(reader.string("plant"), source + ", plant");
-  if (const Value* parameters = reader.optional("parameters")) read_parameters(setup, *parameters);
+  read_plant(setup, reader, source);
   const Plant plant = make_plant(*setup.model, setup.known, source);
   for (const Value& input : reader.required("inputs").items())
     setup.inputs.push_back(read_input(input, plant));
@@ -357,7 +411,13 @@ Value to_json(const InPlantSetup& setup) {
   Value inputs = Value::array();
   for (const PlantInputChannel& input : setup.inputs) {
     Value one = Value::object();
-    if (!input.road) one.add("channel", input.channel);
+    if (!input.follows.empty()) {
+      one.add("follows", input.follows);
+      one.add("delay",
+              input.finds_later ? Value::object({{"about", input.later}}) : Value(input.later));
+    } else if (!input.road) {
+      one.add("channel", input.channel);
+    }
     one.add("kind", kInputWords[static_cast<std::size_t>(input.place.kind)].first);
     if (input.place.kind == PlantInput::Force)
       one.add("at", plant.coordinates[input.place.coordinate].name);
@@ -392,10 +452,12 @@ Value to_json(const InPlantSetup& setup) {
       one.add("delay", sensor.delay);
     sensors.push_back(std::move(one));
   }
-  Value file = Value::object({{"plant", setup.model->name},
-                              {"parameters", std::move(parameters)},
-                              {"inputs", std::move(inputs)},
-                              {"sensors", std::move(sensors)}});
+  Value file = Value::object({{"plant", setup.model->name}});
+  if (setup.matrices)
+    for (const auto& [key, value] : setup.matrices->file) file.add(key, value);
+  file.add("parameters", std::move(parameters));
+  file.add("inputs", std::move(inputs));
+  file.add("sensors", std::move(sensors));
   if (setup.drive_unit != DriveUnit::None) {
     const std::string key = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current";
     file.add(key, setup.drive.empty() ? Value(setup.level) : Value(setup.drive));
@@ -409,6 +471,11 @@ Value to_json(const InPlantSetup& setup) {
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
   for (const FittedParameter& p : report.plant) setup.known.emplace_back(p.name, p.value);
   setup.unknown.clear();
+  for (PlantInputChannel& input : setup.inputs) {
+    for (const FittedParameter& p : report.nuisances)
+      if (input.finds_later && p.name == "delay of " + input.channel) input.later = p.value;
+    input.finds_later = false;
+  }
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     PlantSensor& sensor = setup.sensors[s];
     for (const FittedParameter& p : report.nuisances)

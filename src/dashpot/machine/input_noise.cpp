@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/machine/between_samples.h"
 #include "dashpot/machine/plant_run.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/linear_algebra.h"
@@ -35,7 +36,8 @@ void set_deviations(const std::vector<double>& variances, NoiseSources& sources)
 std::vector<bool> stated_sources(const InPlantSetup& setup) {
   std::vector<bool> stated;
   for (const PlantSensor& sensor : setup.sensors) stated.push_back(sensor.noise > 0);
-  for (const PlantInputChannel& input : setup.inputs) stated.push_back(input.noise > 0);
+  for (const PlantInputChannel& input : setup.inputs)
+    stated.push_back(input.noise > 0 || !input.follows.empty());
   stated.resize(stated.size() + force_memories().size(), false);
   return stated;
 }
@@ -72,6 +74,23 @@ RecordingNoise::RecordingNoise(const InPlantSetup& setup, const StandIn& stand_i
       else
         at.of_force(u - inputs_, shows);
       gains_.insert(gains_.end(), shows.begin(), shows.end());
+    }
+    join_followers(setup, at.iw(), l);
+  }
+}
+
+/// What an axle behind is thought to meet holds the noise of the sensor before it, later: one
+/// source with the gains of both.
+void RecordingNoise::join_followers(const InPlantSetup& setup, Complex iw, std::size_t line) {
+  for (std::size_t u = 0; u < inputs_; ++u) {
+    const PlantInputChannel& input = setup.inputs[u];
+    if (input.follows.empty()) continue;
+    if (line == 0) followers_.push_back({u, followed_by(setup, input), input.later});
+    Complex* own = &gains_[line * gains_per_line() + u * sensors_];
+    Complex* first = &gains_[line * gains_per_line() + followed_by(setup, input) * sensors_];
+    for (std::size_t s = 0; s < sensors_; ++s) {
+      first[s] += std::exp(-iw * input.later) * own[s];
+      own[s] = 0;
     }
   }
 }
@@ -177,6 +196,8 @@ std::vector<std::vector<double>> RecordingNoise::likely_inputs() const {
   }
   std::vector<std::vector<double>> likely;
   for (const auto& one : lines) likely.push_back(from_half_spectrum(one, samples_));
+  for (const Follower& one : followers_)
+    likely[one.input] = delayed(likely[one.follows], sample_time_, one.later);
   return likely;
 }
 

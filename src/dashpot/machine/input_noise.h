@@ -74,6 +74,7 @@ class RecordingNoise {
  private:
   using Complex = std::complex<double>;
   std::size_t sources() const { return sensors_ + inputs_ + force_memories().size(); }
+  void join_followers(const InPlantSetup& setup, Complex iw, std::size_t line);
   double shape(std::size_t source, std::size_t line) const;
   void whitened_gains(std::size_t line, std::vector<Complex>& gains) const;
   std::pair<std::size_t, std::size_t> gains_of(std::size_t source) const;
@@ -86,6 +87,12 @@ class RecordingNoise {
   std::vector<Complex> beyond_;   ///< lines x sensors, scaled to the variance of a sample
   std::vector<Complex> factors_;  ///< lines x sensors x sensors: of S
   std::vector<double> variances_;
+  /// An input that is another one, later: both by their places.
+  struct Follower {
+    std::size_t input, follows;
+    double later;
+  };
+  std::vector<Follower> followers_;
 };
 
 /// The sources under which all recordings are most likely, from `first` on; what a setup states is

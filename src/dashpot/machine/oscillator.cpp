@@ -1,6 +1,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_of_matrices.h"
 
 namespace dashpot {
 namespace {
@@ -38,13 +38,16 @@ const PlantModel kOscillator{
 }  // namespace
 
 std::vector<std::string> machine_names() {
-  std::vector<std::string> names = {std::string(kOscillator.name)};
+  std::vector<std::string> names = {std::string(kOfMatrices), std::string(kOscillator.name)};
   for (const PlantModel* model : plant_models()) names.emplace_back(model->name);
   return names;
 }
 
 const PlantModel& find_machine(const std::string& name, const std::string& where) {
   if (name == kOscillator.name) return kOscillator;
+  if (name == kOfMatrices)
+    throw Error(where, "a plant of matrices does not fit on a line",
+                "a file with 'plant: matrices' (docs/in-plant.md)");
   for (const PlantModel* model : plant_models())
     if (model->name == name) return *model;
   throw Error(where, "unknown plant '" + name + "'", suggest(name, machine_names()));

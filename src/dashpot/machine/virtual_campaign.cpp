@@ -62,10 +62,13 @@ PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
     const bool is_road = setup.inputs[u].place.kind == PlantInput::Ground;
     GroundPointer ground;
 
-    // All tyres go over one road, each where it is.
+    // All tyres go over one road, each where it is, or one behind the other by a time.
     const std::optional<std::size_t> under = setup.inputs[u].place.tyre;
-    const std::size_t track = under ? plant.tyres[*under].track : 0;
-    const double behind = under ? plant.tyres[*under].behind : 0;
+    const bool follows = !setup.inputs[u].follows.empty();
+    const std::optional<std::size_t> meets =
+        follows ? setup.inputs[followed_by(setup, setup.inputs[u])].place.tyre : under;
+    const std::size_t track = meets ? plant.tyres[*meets].track : 0;
+    const double behind = meets ? plant.tyres[*meets].behind : 0;
     if (!options.road.empty() && setup.inputs[u].place.kind != PlantInput::Force)
       ground = make_ground(options.road, under ? seed : seed + u, "--road");
     if (ground && ground->shakes() == is_road)
@@ -77,7 +80,7 @@ PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
 
     const RandomPush random(push, std::min(options.sample_rate / 5, 3 * modes.back()), seed + u);
     for (std::size_t k = 0; k < value.size(); ++k) {
-      const double t = step * static_cast<double>(k);
+      const double t = step * static_cast<double>(k) - setup.inputs[u].later;
       if (is_road) {
         const FootMotion foot = ground->foot(t, track, behind);
         value[k] = foot.height;
@@ -154,7 +157,7 @@ InPlantSetup with_grade(InPlantSetup setup, const SensorGrade& grade) {
     if (sensor.noise == 0)
       sensor.noise = grade.sensors[static_cast<std::size_t>(sensor.place.quantity)];
   for (PlantInputChannel& input : setup.inputs)
-    if (input.noise == 0 && !input.road)
+    if (input.noise == 0 && !input.road && input.follows.empty())
       input.noise = grade.inputs[static_cast<std::size_t>(input.place.kind)];
   return setup;
 }
@@ -228,7 +231,7 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
         add_channel(ride.truth,
                     input.place.tyre ? plant.tyres[*input.place.tyre].name + "_road" : "road", unit,
                     values);
-      if (!input.road)
+      if (!input.road && input.follows.empty())
         add_channel(ride.recorded, input.channel, unit, with_noise(values, input.noise, noise));
     }
     for (std::size_t s = 0; s < setup.sensors.size(); ++s) {

@@ -13,6 +13,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/observe.h"
+#include "dashpot/machine/plant_of_matrices.h"
 #include "dashpot/machine/plant_start.h"
 #include "dashpot/machine/spectral_likelihood.h"
 #include "dashpot/numerics/linear_algebra.h"
@@ -28,6 +29,7 @@ bool knows_a_force(const InPlantSetup& setup) {
   if (std::ranges::any_of(setup.inputs, is_force)) return true;
   for (const PlantSensor& sensor : setup.sensors)
     if (sensor.place.quantity == PlantQuantity::DamperForce) return true;
+  if (setup.matrices && setup.matrices->states_a_number) return true;
   const auto& rows = setup.model->parameters;
   return std::ranges::any_of(setup.known, [&](const auto& known) {
     const auto& row = rows[row_named(rows, known.first, setup.model->name, "plant")];
