@@ -1,6 +1,10 @@
+#include <atomic>
+#include <cmath>
+
 #include "damper/kinds/family/example_family.h"
 #include "dashpot/design/design.h"
 #include "dashpot/design/design_law.h"
+#include "dashpot/design/design_problem.h"
 #include "dashpot/machine/comfort_ride.h"
 #include "dashpot/report/design_report.h"
 #include "dashpot/suspension/ride/simulated_run.h"
@@ -31,6 +35,25 @@ class CountingRide final : public DesignRide {
   std::string description() const override { return "a count"; }
   double comfort(const ModelFile&) const override { return static_cast<double>(++rides); }
   mutable int rides = 0;
+};
+
+/// How far the damper's greatest damping force is from a wanted one, in place of a ride; counts how
+/// often it was asked, from any thread.
+class ForceRide final : public DesignRide {
+ public:
+  explicit ForceRide(double wanted) : wanted_(wanted) {}
+  std::string description() const override { return "a force"; }
+  double comfort(const ModelFile& file) const override {
+    ++rides;
+    const DamperInput input{0, 0.3, 1};
+    std::vector<double> state(file.model->state_size());
+    file.model->rest(input, state);
+    return std::abs(file.model->force(input, state) - wanted_);
+  }
+  mutable std::atomic<int> rides = 0;
+
+ private:
+  double wanted_;
 };
 
 /// The a_w of a drawing in that ride, by the law that its model file holds.
@@ -117,6 +140,46 @@ TEST_CASE("what constraints alone cannot reach is said without a single ride") {
       CHECK(contains(describe(*report.conflict, report.request), "force at least 1e+06 N"));
       CHECK(ride->rides == 0);
     }
+}
+
+TEST_CASE("nothing is ridden where constraints without a ride already rule a damper out") {
+  // The share of the looks that were rides.
+  const auto ridden = [](const std::string& constraints) {
+    DesignRequest request =
+        parsed("ride: {plant: savaresi_spelta}\n" + constraints + "goals: [{minimise: comfort}]");
+    const auto ride = std::make_shared<ForceRide>(1500);
+    request.ride = ride;
+    const DesignReport report = design(request, {.threads = 1});
+    REQUIRE(report.designs.size() == 1);
+    return ride->rides / static_cast<double>(report.evaluations);
+  };
+  CHECK(ridden("") >= 1);
+  CHECK(ridden("constraints: [{quantity: gap, max: 1 mm}]\n") < 0.8);
+}
+
+TEST_CASE("a robust design rides the drawing first, and the dampers made near its best") {
+  DesignRequest request = parsed(
+      "ride: {plant: savaresi_spelta}\ntolerances: {gap: 0.1 mm}\n"
+      "robust: {share: 0.9, samples: 16}\ngoals: [{minimise: comfort}]");
+  const auto ride = std::make_shared<ForceRide>(1200);
+  request.ride = ride;
+  const DesignReport report = design(request, {.threads = 1});
+  REQUIRE(report.designs.size() == 1);
+  CHECK(ride->rides < 16 * 20 + 3 * 48 + static_cast<int>(report.evaluations));
+  const double found = report.designs.front().assessment.goals.front();
+
+  // No gap of a fine grid is better, though the best as drawn has no distance at all.
+  const auto physics = make_design_model("physics", "");
+  const DesignProblem problem(request, *physics, 1);
+  double best = INFINITY, best_drawn = INFINITY;
+  for (int k = 0; k <= 200; ++k) {
+    const std::vector<double> place{k / 200.};
+    const DamperDescription damper = problem.damper_at(place);
+    best = std::min(best, problem.assess(damper).goals.front());
+    best_drawn = std::min(best_drawn, problem.riding(Ridden::Drawn).assess(damper).goals.front());
+  }
+  CHECK(best_drawn < 0.1 * best);
+  CHECK(found <= 1.01 * best);
 }
 
 TEST_CASE("a robust design for comfort by two models rides each damper made, by both" *

@@ -26,7 +26,7 @@ class DesignRun {
                 .options = options,
                 .first_name = model_->name(),
                 .second_name = second_ ? second_->name() : ""},
-        problem_(report_.request, *model_, options.seed, second_.get()) {
+        problem_(report_.request, *model_, options.seed, second_.get(), options.threads) {
     note_limits();
   }
   DesignReport run();
@@ -35,6 +35,8 @@ class DesignRun {
   bool is_fitted() const;
   OptimiseOptions search_options(const std::string& stage, double from, double to);
   std::vector<std::vector<double>> best_of_each_goal();
+  /// Whether the drawing's own ride may tell where to look for the best of the dampers made.
+  bool rides_drawn_first(const DesignGoal& goal) const;
   /// The places of the designs to go on from, as far as they hold the constraints.
   std::vector<std::vector<double>> earlier_places() const;
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
@@ -119,16 +121,32 @@ OptimiseOptions DesignRun::search_options(const std::string& stage, double from,
   return options;
 }
 
+bool DesignRun::rides_drawn_first(const DesignGoal& goal) const {
+  const DesignRequest& request = report_.request;
+  const auto of_ride = [](const auto& asked) { return is_of_ride(*asked.quantity); };
+  return request.share > 0 && of_ride(goal) && std::ranges::none_of(request.constraints, of_ride);
+}
+
 std::vector<std::vector<double>> DesignRun::best_of_each_goal() {
   const std::vector<DesignGoal>& goals = report_.request.goals;
   std::vector<std::vector<double>> places;
   const double part = goals.size() > 1 ? 0.3 / static_cast<double>(goals.size()) : 0.6;
   for (std::size_t k = 0; k < goals.size() && !report_.stopped; ++k) {
     const double from = part * static_cast<double>(k);
-    const Optimum optimum =
-        optimise(problem_, k, search_options(describe(goals[k]), from, from + part));
+    const bool drawn_first = rides_drawn_first(goals[k]);
+    OptimiseOptions options = search_options(describe(goals[k]), from, from + part);
+    Optimum optimum = optimise(drawn_first ? problem_.riding(Ridden::Drawn) : problem_, k, options);
     report_.evaluations += optimum.evaluations;
     report_.stopped = report_.stopped || optimum.stopped;
+
+    // From the best as drawn to the best as made, in as many looks as a minute allows.
+    if (drawn_first && !report_.stopped && !optimum.place.empty()) {
+      constexpr int kLooks = 5;
+      options.looks = kLooks;
+      optimum = refine(problem_, k, optimum.place, options);
+      report_.evaluations += optimum.evaluations;
+      report_.stopped = report_.stopped || optimum.stopped;
+    }
     if (optimum.place.empty() || optimum.violation > 0) break;  // neither can it for another goal
     places.push_back(optimum.place);
   }

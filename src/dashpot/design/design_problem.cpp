@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "dashpot/base/parallel.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/latin_hypercube.h"
 
@@ -75,8 +76,8 @@ bool is_possible(const DamperDescription& damper) {
 }
 
 DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model,
-                             std::uint64_t seed, const DesignModel* second)
-    : request_(request), model_(model), second_(second) {
+                             std::uint64_t seed, const DesignModel* second, int threads)
+    : request_(request), model_(model), second_(second), threads_(threads) {
   for (const DesignGoal& goal : request.goals) question_of_.push_back(ask(goal.at, goal.by));
   for (const DesignConstraint& constraint : request.constraints)
     question_of_.push_back(ask(constraint.at, constraint.by));
@@ -217,6 +218,12 @@ DamperFigures DesignProblem::figures(const DamperDescription& damper) const {
   return figures(damper, Wanted(question_of_.size(), 1));
 }
 
+DamperFigures DesignProblem::figures_unridden(const DamperDescription& damper) const {
+  Wanted wanted(question_of_.size(), 1);
+  for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] = !needs_ride(k);
+  return figures(damper, wanted);
+}
+
 DamperFigures DesignProblem::figures(const DamperDescription& damper, const Wanted& wanted) const {
   const auto model_of = [&](const Question& question) -> const DesignModel& {
     return question.by == ToldBy::Second ? *second_ : model_;
@@ -309,20 +316,29 @@ Assessment DesignProblem::assess_wanted(const DamperDescription& drawn,
 
   // The drawing's own figures, or, where a share of the dampers made counts, what this share
   // reaches. A drawing that a model refuses is not made, and of others nothing else counts.
-  auto [all, refusal] =
-      figures(drawn, made_with_.empty() ? wanted : Wanted(question_of_.size(), 0));
+  const auto is_drawn = [&](std::size_t k) {
+    return made_with_.empty() || (ridden_ == Ridden::Drawn && k < goals && needs_ride(k));
+  };
+  Wanted of_drawn = wanted, of_made = wanted;
+  for (std::size_t k = 0; k < wanted.size(); ++k) (is_drawn(k) ? of_made : of_drawn)[k] = 0;
+  auto [all, refusal] = figures(drawn, of_drawn);
   assessment.refusal = refusal;
   assessment.known = refusal == Refusal::None;
   if (!made_with_.empty() && assessment.known) {
-    std::vector<std::vector<double>> by_quantity(all.size());
+    std::vector<DamperDescription> dampers;
     for (const std::vector<double>& shares : made_with_) {
-      const DamperDescription damper = made(drawn, shares);
-      if (!is_possible(damper)) return impossible();
-      const std::vector<double> of_damper = figures(damper, wanted).values;
-      for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
+      dampers.push_back(made(drawn, shares));
+      if (!is_possible(dampers.back())) return impossible();
     }
-    for (std::size_t k = 0; k < all.size(); ++k)
-      all[k] = figure_of_share(by_quantity[k], is_wanted_large(k));
+    std::vector<std::vector<double>> told(dampers.size());
+    parallel_for(dampers.size(), threads_,
+                 [&](std::size_t n) { told[n] = figures(dampers[n], of_made).values; });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (is_drawn(k)) continue;
+      std::vector<double> of_dampers;
+      for (const std::vector<double>& one : told) of_dampers.push_back(one[k]);
+      all[k] = figure_of_share(of_dampers, is_wanted_large(k));
+    }
   }
 
   // Slack of each constraint; the violation sums those that fail.

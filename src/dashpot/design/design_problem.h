@@ -26,6 +26,9 @@ struct Assessment {
   bool holds() const { return possible && known && violation == 0; }
 };
 
+/// Which dampers a robust request rides for a goal.
+enum class Ridden { Made, Drawn };
+
 /// Whether a damper can be drawn so: lengths above 0, a gap within its bore.
 bool is_possible(const DamperDescription& damper);
 
@@ -36,7 +39,14 @@ class DesignProblem {
   /// Request and models must outlive it. The seed draws the dampers that stand for those made.
   /// Throws Error when the request asks for figures of a second model and there is none.
   DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed,
-                const DesignModel* second = nullptr);
+                const DesignModel* second = nullptr, int threads = 1);
+
+  /// The same with the drawing alone ridden for a goal, where the made ones are asked for all else.
+  DesignProblem riding(Ridden ridden) const {
+    DesignProblem other = *this;
+    other.ridden_ = ridden;
+    return other;
+  }
 
   const DesignRequest& request() const { return request_; }
   const DesignModel& model() const { return model_; }
@@ -61,6 +71,10 @@ class DesignProblem {
   /// Each figure by the model that is asked for it, at the pessimistic end of its band; refused
   /// where a fitted model, asked or not, refuses the force at an operating point of any of them.
   DamperFigures figures(const DamperDescription& damper) const;
+  /// The same without a ride: NaN for what needs one.
+  DamperFigures figures_unridden(const DamperDescription& damper) const;
+  /// Whether the figure of a goal or constraint, goals first, needs a ride.
+  bool needs_ride(std::size_t k) const { return is_of_ride(quantity_of(k)); }
   /// The same by one model, in the middle of its band.
   std::vector<double> middle_figures(const DamperDescription& damper,
                                      const DesignModel& model) const;
@@ -85,6 +99,8 @@ class DesignProblem {
   const DesignRequest& request_;
   const DesignModel& model_;
   const DesignModel* second_;
+  int threads_;  // among which the dampers made are shared; figures do not depend on it
+  Ridden ridden_ = Ridden::Made;
   std::vector<Question> questions_;       // each once; of fitted models all that any model is asked
   std::vector<std::size_t> question_of_;  // of every goal, then of every constraint
   std::vector<std::vector<double>> made_with_;  // shares of the tolerances of each damper made

@@ -24,7 +24,12 @@ struct Enough {};  // a search for feasibility is at its end
 class Search {
  public:
   Search(const DesignProblem& problem, const std::size_t* goal, const OptimiseOptions& options)
-      : problem_(problem), goal_(goal), options_(options) {}
+      : problem_(problem), goal_(goal), options_(options) {
+    const auto of_ride = [](const auto& asked) { return is_of_ride(*asked.quantity); };
+    const std::vector<DesignConstraint>& constraints = problem.request().constraints;
+    constrains_rides_ = goal && of_ride(problem.request().goals[*goal]) && !constraints.empty() &&
+                        std::ranges::none_of(constraints, of_ride);
+  }
 
   struct Seen {
     double value = 0, violation = 0;
@@ -45,6 +50,19 @@ class Search {
     keep(place, seen);
     return seen;
   }
+  /// The rank of a place. Nothing is ridden where the constraints alone set it.
+  double look_for_rank(std::span<const double> place) {
+    if (constrains_rides_) {
+      if (options_.monitor) options_.monitor->check();
+      const DamperDescription damper = problem_.damper_at(place);
+      const Seen unridden = seen_of(problem_.assess_for(damper, nullptr), nullptr);
+      if (unridden.violation > 0 && !best_.place.empty() && rank(unridden) >= best_rank_) {
+        ++best_.evaluations;
+        return rank(unridden);
+      }
+    }
+    return rank(look(place));
+  }
   /// A place that holds the constraints beats any that does not.
   static double rank(const Seen& seen) {
     return seen.violation > 0 ? kFails * (1 + seen.violation) : std::min(seen.value, kFails);
@@ -54,7 +72,8 @@ class Search {
   Optimum& best() { return best_; }
 
  private:
-  Seen seen_of(const Assessment& assessment) const {
+  Seen seen_of(const Assessment& assessment) const { return seen_of(assessment, goal_); }
+  Seen seen_of(const Assessment& assessment, const std::size_t* goal) const {
     Seen seen;
     for (std::size_t k = 0; k < assessment.slack.size(); ++k)
       if (options_.counted.empty() || options_.counted[k])
@@ -62,7 +81,7 @@ class Search {
     if (!assessment.possible || !assessment.known)  // what cannot be drawn is further off
       seen.slack.push_back(assessment.possible ? -1 : -2);
     for (const double slack : seen.slack) seen.violation += std::max(0., -slack);
-    seen.value = goal_ ? value_of(assessment) : 0;
+    seen.value = goal ? value_of(assessment) : 0;
     return seen;
   }
   bool is_better(const Seen& seen) const { return best_.place.empty() || rank(seen) < best_rank_; }
@@ -84,6 +103,7 @@ class Search {
   const DesignProblem& problem_;
   const std::size_t* goal_;
   const OptimiseOptions& options_;
+  bool constrains_rides_;  ///< a goal of a ride, under constraints that need none
   Optimum best_;
   double best_rank_ = HUGE_VAL;
 };
@@ -229,9 +249,8 @@ void run_start(const DesignProblem& problem, Search& search, const OptimiseOptio
   // Controlled random search over the whole cube, then COBYLA from its best place.
   const std::size_t size = problem.size();
   const SearchBox box{std::vector<double>(size, 0.), std::vector<double>(size, 1.)};
-  global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); },
-                box, std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size),
-                seed);
+  global_search([&](std::span<const double> place) { return search.look_for_rank(place); }, box,
+                std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size), seed);
   polish(problem, search, search.best().place, options.looks);
 
   // The levels of each variable in turn, until a round over all variables brings nothing; a few
@@ -278,6 +297,19 @@ Optimum run_starts(const DesignProblem& problem, const std::size_t* goal,
 
 Optimum optimise(const DesignProblem& problem, std::size_t goal, const OptimiseOptions& options) {
   return run_starts(problem, &goal, options);
+}
+
+Optimum refine(const DesignProblem& problem, std::size_t goal, std::vector<double> place,
+               const OptimiseOptions& options) {
+  constexpr double kRadius = 0.1;
+  Search search(problem, &goal, options);
+  try {
+    Polish(search, std::move(place), movable(problem.request(), false), false)
+        .run(kRadius, options.looks);
+  } catch (const Interrupted&) {
+    search.best().stopped = true;
+  }
+  return search.best();
 }
 
 Optimum least_violation(const DesignProblem& problem, const OptimiseOptions& options) {

@@ -34,6 +34,11 @@ struct Optimum {
 /// steps; then the other levels of each variable in turn, with COBYLA on the rest. All by NLopt.
 Optimum optimise(const DesignProblem& problem, std::size_t goal, const OptimiseOptions& options);
 
+/// Makes the goal better from a place, by COBYLA on the variables without levels; of the options
+/// those of a local search count.
+Optimum refine(const DesignProblem& problem, std::size_t goal, std::vector<double> place,
+               const OptimiseOptions& options);
+
 /// The place of least violation; ends where it finds none.
 Optimum least_violation(const DesignProblem& problem, const OptimiseOptions& options);
 

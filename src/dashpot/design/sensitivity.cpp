@@ -14,7 +14,7 @@ using Rows = std::vector<std::vector<double>>;
 
 /// The figures of the damper made with these shares of the tolerances; NaN where it cannot be made.
 std::vector<double> figures_of(const DesignProblem& problem, const DamperDescription& design,
-                               const std::vector<double>& shares) {
+                               const std::vector<double>& shares, bool rides) {
   const DesignRequest& request = problem.request();
   const DamperDescription damper = problem.made(design, shares);
   try {
@@ -22,7 +22,7 @@ std::vector<double> figures_of(const DesignProblem& problem, const DamperDescrip
   } catch (const Error&) {
     return std::vector<double>(request.goals.size() + request.constraints.size(), NAN);
   }
-  return problem.figures(damper).values;
+  return (rides ? problem.figures(damper) : problem.figures_unridden(damper)).values;
 }
 
 Rows draw(std::size_t samples, std::size_t count, Random& random) {
@@ -48,22 +48,22 @@ struct Samples {
 };
 
 Samples sample(const DesignProblem& problem, const DamperDescription& design,
-               const SensitivityOptions& options) {
+               const SensitivityOptions& options, bool rides) {
   // Two independent draws of all tolerances.
   Random random(options.seed);
+  const std::size_t size = rides ? options.ridden : options.samples;
   const std::size_t count = problem.request().tolerances.size();
-  const Rows a = draw(options.samples, count, random), b = draw(options.samples, count, random);
+  const Rows a = draw(size, count, random), b = draw(size, count, random);
 
   // Each damper of A also with one tolerance at a time from B.
-  Samples samples{Rows(options.samples), Rows(options.samples),
-                  std::vector<Rows>(count, Rows(options.samples))};
-  parallel_for(options.samples, options.threads, [&](std::size_t k) {
-    samples.a[k] = figures_of(problem, design, a[k]);
-    samples.b[k] = figures_of(problem, design, b[k]);
+  Samples samples{Rows(size), Rows(size), std::vector<Rows>(count, Rows(size))};
+  parallel_for(size, options.threads, [&](std::size_t k) {
+    samples.a[k] = figures_of(problem, design, a[k], rides);
+    samples.b[k] = figures_of(problem, design, b[k], rides);
     for (std::size_t t = 0; t < count; ++t) {
       std::vector<double> mixed = a[k];
       mixed[t] = b[k][t];
-      samples.mixed[t][k] = figures_of(problem, design, mixed);
+      samples.mixed[t][k] = figures_of(problem, design, mixed, rides);
     }
   });
   return samples;
@@ -112,9 +112,9 @@ void add_local(const DesignProblem& problem, const DamperDescription& design, Se
   for (std::size_t t = 0; t < count; ++t) {
     std::vector<double> shares(count, 0.);
     shares[t] = kStep;
-    const std::vector<double> up = figures_of(problem, design, shares);
+    const std::vector<double> up = figures_of(problem, design, shares, true);
     shares[t] = -kStep;
-    const std::vector<double> down = figures_of(problem, design, shares);
+    const std::vector<double> down = figures_of(problem, design, shares, true);
     for (std::size_t k = 0; k < result.figures.size(); ++k)
       result.figures[k].local.push_back((up[k] - down[k]) / (2 * kStep));
   }
@@ -132,18 +132,27 @@ Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& d
   // Derivatives at the drawing.
   add_local(problem, design, result);
 
-  // Spread and shares of variance over the dampers made.
-  const Samples samples = sample(problem, design, options);
+  // Spread and shares of variance over the dampers made; rides are long, and have fewer of them.
+  bool any_ride = false, constrains_ride = false;
   for (std::size_t k = 0; k < result.figures.size(); ++k) {
+    any_ride = any_ride || problem.needs_ride(k);
+    constrains_ride =
+        constrains_ride || (problem.needs_ride(k) && k >= problem.request().goals.size());
+  }
+  const Samples unridden = sample(problem, design, options, false);
+  const Samples ridden = any_ride ? sample(problem, design, options, true) : Samples();
+  for (std::size_t k = 0; k < result.figures.size(); ++k) {
+    const Samples& samples = problem.needs_ride(k) ? ridden : unridden;
     add_range(samples, k, result.figures[k]);
     add_shares(samples, k, result.figures[k]);
   }
 
   // The share of them that holds every constraint.
+  const Samples& all = constrains_ride ? ridden : unridden;
   std::size_t holding = 0;
-  for (const Rows* rows : {&samples.a, &samples.b})
+  for (const Rows* rows : {&all.a, &all.b})
     for (const auto& row : *rows) holding += holds_all(problem.request(), row);
-  result.holding = static_cast<double>(holding) / static_cast<double>(2 * options.samples);
+  result.holding = static_cast<double>(holding) / static_cast<double>(2 * all.a.size());
   return result;
 }
 

@@ -22,6 +22,7 @@ struct Sensitivity {
 
 struct SensitivityOptions {
   std::size_t samples = 512;
+  std::size_t ridden = 48;  ///< samples of figures that need a ride
   std::uint64_t seed = 1;
   int threads = 0;  ///< results do not depend on it
 };

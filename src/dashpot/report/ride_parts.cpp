@@ -60,13 +60,26 @@ std::string against_text(double value, double reference) {
   return percent_text(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more");
 }
 
+namespace {
+
+/// A warning after the name of its run. Where that begins with the damper of which the warning
+/// speaks, the damper is not named again.
+std::string warning_of(const SimulatedRun& run, const std::string& warning) {
+  for (const std::string& damper : run.vehicle->damper_names)
+    if (run.name.starts_with(damper) && warning.starts_with(damper + ": "))
+      return run.name + warning.substr(damper.size());
+  return run.name + ": " + warning;
+}
+
+}  // namespace
+
 std::vector<std::string> run_remarks(const std::vector<const SimulatedRun*>& runs) {
   std::vector<std::string> remarks;
   const auto add = [&](const std::string& remark) {
     if (std::ranges::find(remarks, remark) == remarks.end()) remarks.push_back(remark);
   };
   for (const SimulatedRun* run : runs)
-    for (const std::string& warning : run->warnings) add(run->name + ": " + warning);
+    for (const std::string& warning : run->warnings) add(warning_of(*run, warning));
   for (const SimulatedRun* run : runs)
     for (const std::string& note : run->vehicle->notes) add(note);
   return remarks;

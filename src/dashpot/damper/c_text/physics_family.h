@@ -62,72 +62,124 @@ typedef struct PhysicsElement {
   double passive; /* N s/m, of gaps without field in the same flow */
 } PhysicsElement;
 
-/* A resistance at a speed, N s/m, and its derivative by the speed. */
-typedef struct PhysicsResistance {
-  double value, slope;
-} PhysicsResistance;
+/* What sets the speed s of a resistance that takes the speed u: s^2 = rest + own u^2. */
+typedef struct PhysicsSpeed {
+  double rest, own;  /* m^2/s^2, 1 */
+  double slow, root; /* their square roots */
+} PhysicsSpeed;
 
-/* A friction (viscous 0) or a plate flow: the force it has at a speed, over that speed. */
-static inline PhysicsResistance physics_resistance(double yielding, double viscous, double passive,
-                                                   double speed) {
-  PhysicsResistance r;
-  if (!(viscous > 0)) {
-    r.value = yielding / speed;
-    r.slope = -yielding / (speed * speed);
-  } else {
-    /* The slope of the pressure p follows from its cubic, p^3 - (N + 3/2 Y) p^2 + Y^3 / 2 = 0. */
-    const double newtonian = viscous * speed;
-    const double p = plate_bingham_pressure(newtonian, yielding);
-    const double slope = p / (3 * p - 2 * (newtonian + 1.5 * yielding));
-    r.value = p / speed + passive;
-    r.slope = (viscous * slope - p / speed) / speed;
-  }
-  return r;
+/* The pressure beyond the yielding one that a plate flow has at a newtonian pressure, within 0.4 %:
+ * d = (2/3 N Y)^(1/2) + 4/9 N where N is small and N + Y / 2 where it is large, and between them a
+ * quotient whose two numbers were chosen for the least error. */
+static inline double physics_flowing_about(double newtonian, double yielding) {
+  const double w = sqrt(2. / 3 * newtonian * yielding);
+  const double quotient = yielding * yielding + 1.42 * yielding * w + 1.32 * w * w;
+  return newtonian + (quotient > 0 ? yielding * w * (yielding + 0.66 * w) / quotient : 0);
 }
 
-/* The force f = u R(s) of a resistance that takes the speed u, s^2 = rest + own u^2, where f +
- * spring u = pull, pull >= 0. The left side grows with u, so that a bracketed Newton step ends. */
-static inline double physics_balance(double yielding, double viscous, double passive, double pull,
-                                     double spring, double rest, double own) {
-  PhysicsResistance r = physics_resistance(yielding, viscous, passive, sqrt(rest));
-  double low = 0, high = pull / spring;
-  double u = pull / (spring + r.value);
+/* A friction's force f = u Y / s where f + spring u = pull, pull >= 0. The left side grows with u
+ * and is concave: Newton's steps from below stay below. */
+static inline double physics_friction(double yielding, double pull, double spring,
+                                      const PhysicsSpeed* at) {
+  double u = pull * at->slow / (yielding + spring * at->slow), sliding;
   int k;
-  if (!(own > 0)) return u * r.value;
+  if (!(at->own > 0)) return u * yielding / at->slow;
 
-  /* A resistance that has yielded leaves the rest of the pull to spring and viscous flow. */
-  u = fmax(u, (pull - yielding / sqrt(own)) / (spring + viscous + passive));
+  /* Below it lie the ends of slow motion and of sliding. */
+  sliding = (at->root * pull - yielding) / (at->root * spring);
+  if (sliding > u) u = sliding;
   for (k = 0; k < 50; ++k) {
-    const double s = sqrt(rest + own * u * u);
-    const double tolerance = 1e-9; /* single precision: 1e-5 */
-    double excess, next, step;
-    r = physics_resistance(yielding, viscous, passive, s);
-    excess = u * r.value + spring * u - pull;
+    const double tolerance = 1e-7; /* single precision: 1e-4 */
+    const double square = at->rest + at->own * u * u;
+    const double resistance = yielding / sqrt(square);
+    const double step =
+        (pull - u * (resistance + spring)) / (resistance * at->rest / square + spring);
+    u += step;
+    if (fabs(step) <= tolerance * u) break; /* the next step would move by the square of this */
+  }
+  return u * yielding / sqrt(at->rest + at->own * u * u);
+}
+
+/* The same of a plate flow. Its speed follows from its pressure p = Y + d without a cubic, viscous
+ * s = p x^2 (3 - x) / 2 with x = d / p, and u from both: d is where s^2 = rest + own u^2. */
+static inline double physics_flow(double yielding, double viscous, double passive, double pull,
+                                  double spring, const PhysicsSpeed* at) {
+  const double beside = passive + spring;
+  double speed = at->slow, d, pressure, low = 0, high = 0;
+  int k;
+
+  /* First where the pressure is about that of slow motion, or that which yielding leaves of the
+   * pull. */
+  if (at->own > 0) {
+    const double slowly = plate_gavin_pressure(viscous * speed, yielding);
+    const double yielded = (at->root * pull - yielding) / (at->root * (viscous + beside));
+    double u = pull * speed / (slowly + beside * speed);
+    if (yielded > u) u = yielded;
+    speed = sqrt(at->rest + at->own * u * u);
+  }
+  d = physics_flowing_about(viscous * speed, yielding);
+
+  /* The speed of the pressure grows faster with it than that of the balance, so that a bracketed
+   * Newton step ends. */
+  for (k = 0; k < 50; ++k) {
+    const double tolerance = 1e-7; /* single precision: 1e-4 */
+    double x, share, excess, slope, step;
+    pressure = yielding + d;
+    x = d / pressure;
+    speed = pressure * x * x * (1.5 - 0.5 * x) / viscous;
+    slope = x * (3 - x * (3 - x)) / viscous;
+    share = pull / (pressure + beside * speed); /* u over the speed */
+    excess = speed - sqrt(at->rest + at->own * share * share * speed * speed);
     if (excess > 0) {
-      high = u;
+      high = d;
     } else {
-      low = u;
+      low = d;
     }
-    step = excess / (r.value + u * r.slope * own * u / s + spring);
-    next = u - step;
+    slope -= at->own * share * share * (slope * pressure - speed) / (pressure + beside * speed);
+    step = excess / slope;
 
     /* The last step is Newton's own: what it leaves is of the order of its square. A bracket that
      * holds no rounding any more would send it back to the middle. */
-    if (fabs(step) <= tolerance * u) {
-      u = next;
+    if (fabs(step) <= tolerance * d) {
+      d -= step;
       break;
     }
-    u = next > low && next < high ? next : 0.5 * (low + high);
+    d = d - step > low && (d - step < high || !(high > 0)) ? d - step : 0.5 * (low + high);
   }
-  r = physics_resistance(yielding, viscous, passive, sqrt(rest + own * u * u));
-  return u * r.value;
+  pressure = yielding + d;
+  speed = d * d * (d + 1.5 * yielding) / (viscous * pressure * pressure);
+  return pull * (pressure + passive * speed) / (pressure + beside * speed);
 }
 
-/* n: the learnt numbers; d: how this build differs, logarithms of force, flow and springs, and the
- * offset over the reference force; yield_stress: Pa, at this current. */
-static inline PhysicsElement physics_element(const PhysicsReference* r, const double* n,
-                                             const double* d, const PhysicsMember* m,
-                                             double yield_stress, double current) {
+/* How the yielding force goes with the field. */
+typedef struct PhysicsField {
+  double yield_stress, exponent; /* Pa, 1 */
+  double gain, half, most;       /* 1, A, A */
+} PhysicsField;
+
+/* n: the learnt numbers. */
+static inline PhysicsField physics_field(const PhysicsReference* r, const double* n) {
+  PhysicsField f;
+  f.yield_stress = r->yield_stress;
+  f.exponent = n[kFieldExponent];
+  f.gain = n[kFieldGain];
+  f.half = r->current * exp(n[kFieldHalf]);
+  f.most = 1e6 * r->current;
+  return f;
+}
+
+/* What the field multiplies the yielding force by: a power of the yield stress, Pa, at this
+ * current, and a share of the current that saturates. */
+static inline double physics_field_at(const PhysicsField* f, double yield_stress, double current) {
+  const double i = fmin(fabs(current), f->most);
+  return pow(yield_stress / f->yield_stress, f->exponent) * exp(f->gain * i / (i + f->half));
+}
+
+/* One damper where physics_field_at() is 1; its yielding force alone goes with the field. n: the
+ * learnt numbers; d: how this build differs, logarithms of force, flow and springs, and the offset
+ * over the reference force. */
+static inline PhysicsElement physics_drawn(const PhysicsReference* r, const double* n,
+                                           const double* d, const PhysicsMember* m) {
   /* Logarithms over the middle of the family. */
   const double gap = log(m->gap / r->gap), length = log(m->pole_length / r->pole_length);
   const double area = log(m->piston_area / r->piston_area);
@@ -140,11 +192,6 @@ static inline PhysicsElement physics_element(const PhysicsReference* r, const do
   const double flow = d[1] + n[kGapOfYield] * gap + n[kLengthOfYield] * length +
                       n[kAreaOfYield] * area + n[kFluidOfYield] * fluid;
 
-  /* The field: by the yield stress, and by a share of the current that saturates. */
-  const double i = fmin(fabs(current), 1e6 * r->current);
-  const double field = pow(yield_stress / r->yield_stress, n[kFieldExponent]) *
-                       exp(n[kFieldGain] * i / (i + r->current * exp(n[kFieldHalf])));
-
   /* Plate flow at the middle of the family, and the power of geometry that the data ask for. */
   const PlateGap middle = {r->pole_length, r->gap_area / r->gap, r->gap};
   const double yielding = r->piston_area * plate_yield_pressure(&middle, r->yield_stress);
@@ -156,8 +203,7 @@ static inline PhysicsElement physics_element(const PhysicsReference* r, const do
   PhysicsElement e;
   e.seal = all * r->force * exp(n[kSealForce]);
   e.seal_stiffness = e.seal / r->stroke * exp(d[2] - n[kSealGive]);
-  e.yielding =
-      all * yielding * field * exp(n[kYieldShare] + flow + n[kGeometryShare] * yield_geometry);
+  e.yielding = all * yielding * exp(n[kYieldShare] + flow + n[kGeometryShare] * yield_geometry);
   e.viscous = all * viscous * exp(n[kViscousShare] + flow + n[kGeometryShare] * viscous_geometry);
   e.stiffness = all * r->force / r->stroke * exp(d[2] + n[kStiffness]);
   e.asymmetry = n[kAsymmetry];
@@ -169,27 +215,48 @@ static inline PhysicsElement physics_element(const PhysicsReference* r, const do
   return e;
 }
 
-/* A stage of a step: the force of a resistance behind its spring, under a pull of either side. */
-static inline double physics_side(double yielding, double viscous, double passive, double asymmetry,
-                                  double pull, double spring, double rest, double own) {
-  const double side = pull < 0 ? -1 : 1, factor = 1 + side * asymmetry;
-  return side * physics_balance(yielding * factor, viscous * factor, passive * factor, fabs(pull),
-                                spring, rest, own);
+/* The same at a current, A, with its yield stress, Pa. */
+static inline PhysicsElement physics_element(const PhysicsReference* r, const double* n,
+                                             const double* d, const PhysicsMember* m,
+                                             double yield_stress, double current) {
+  const PhysicsField field = physics_field(r, n);
+  PhysicsElement e = physics_drawn(r, n, d, m);
+  e.yielding *= physics_field_at(&field, yield_stress, current);
+  return e;
 }
 
-/* Both stages of a step of a force with its spring. `first`, `second`: the remembered square of
- * the speed, times its share, and the square of the onset, at both. */
+/* A stage of a step: the force of a resistance, a friction where nothing is viscous, behind its
+ * spring, under a pull of either side. */
+static inline double physics_side(double yielding, double viscous, double passive, double asymmetry,
+                                  double pull, double spring, const PhysicsSpeed* at) {
+  const double side = pull < 0 ? -1 : 1, factor = 1 + side * asymmetry;
+  return side * (viscous > 0 ? physics_flow(yielding * factor, viscous * factor, passive * factor,
+                                            fabs(pull), spring, at)
+                             : physics_friction(yielding * factor, fabs(pull), spring, at));
+}
+
+/* Both stages of a step of a force with its spring. */
 static inline double physics_step(double force, double stiffness, double yielding, double viscous,
                                   double passive, double asymmetry, double from, double to,
-                                  double dt, double first, double second, double own) {
+                                  double dt, const PhysicsSpeed* first,
+                                  const PhysicsSpeed* second) {
   const double stage = 1 - sqrt(0.5); /* of the step: where the first stage stands */
   const double spring = stage * dt * stiffness;
-  const double middle =
-      physics_side(yielding, viscous, passive, asymmetry,
-                   force + spring * (from + stage * (to - from)), spring, first, own);
+  const double middle = physics_side(yielding, viscous, passive, asymmetry,
+                                     force + spring * (from + stage * (to - from)), spring, first);
   const double rate = (middle - force) / (stage * dt);
   return physics_side(yielding, viscous, passive, asymmetry,
-                      force + (1 - stage) * dt * rate + spring * to, spring, second, own);
+                      force + (1 - stage) * dt * rate + spring * to, spring, second);
+}
+
+/* Of the remembered square of the speed. */
+static inline PhysicsSpeed physics_speed(const PhysicsElement* e, double remembered) {
+  PhysicsSpeed at;
+  at.rest = e->memory * remembered + e->slow * e->slow;
+  at.own = 1 - e->memory;
+  at.slow = sqrt(at.rest);
+  at.root = sqrt(at.own);
+  return at;
 }
 
 /* Steps the state from one velocity to the next, by a method of order two that holds for springs of
@@ -201,14 +268,13 @@ static inline void physics_advance(const PhysicsElement* e, double from, double 
     const double stage = 1 - sqrt(0.5);
     const double keep = exp(-dt / e->time), before = state[2];
     const double after = before * keep + (from * from + from * to + to * to) / 3 * (1 - keep);
-    const double floor_square = e->slow * e->slow;
-    const double first = e->memory * (before + stage * (after - before)) + floor_square;
-    const double second = e->memory * after + floor_square;
+    const PhysicsSpeed first = physics_speed(e, before + stage * (after - before));
+    const PhysicsSpeed second = physics_speed(e, after);
     state[2] = after;
-    state[0] = physics_step(state[0], e->seal_stiffness, e->seal, 0, 0, 0, from, to, dt, first,
-                            second, 1 - e->memory);
+    state[0] =
+        physics_step(state[0], e->seal_stiffness, e->seal, 0, 0, 0, from, to, dt, &first, &second);
     state[1] = physics_step(state[1], e->stiffness, e->yielding, e->viscous, e->passive,
-                            e->asymmetry, from, to, dt, first, second, 1 - e->memory);
+                            e->asymmetry, from, to, dt, &first, &second);
   }
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kFinest = 16;  // a stretch in 65 536 steps at most
 constexpr int kIterations = 12;
-constexpr double kConverged = 0.02;  // tolerances by which the last iteration may move the end
+// Tolerances by which the last iteration may move the end: the next would move it by a small part.
+constexpr double kConverged = 0.25;
 /// Halving a step quarters the error of a damper's own steps, the least that a method here gains.
 constexpr double kGain = 3;
 
@@ -35,6 +36,7 @@ class Collocation final : public StepMethod {
         middle_(now_),
         whole_(now_),
         half_(now_),
+        three_quarters_(now_),
         end_(now_),
         before_(start.x) {}
 
@@ -68,7 +70,7 @@ class Collocation final : public StepMethod {
     double done = 0;  // share of the stretch
     while (done < 1) {
       const double share = std::exp2(-level_), h = length * share;
-      const double error = options_.controls_error ? in_halves(h) : step(now_, h, middle_, end_);
+      const double error = options_.controls_error ? in_halves(h) : step_anew(h, end_);
       if (options_.controls_error && !(error <= 1) && level_ < kFinest) {
         ++level_;
         continue;
@@ -79,12 +81,12 @@ class Collocation final : public StepMethod {
       std::swap(now_, end_);
       if (!is_finite(now_.state.x)) return false;
       done += share;
-      usual_ = h;
       now_.state.time = done >= 1 ? end : start + length * done;
 
       // The level falls where the error is small and the place suits a step of twice the length.
       const bool even = std::fmod(done, 2 * share) == 0;
       if (options_.controls_error && error < 1.0 / 64 && level_ > least && even) --level_;
+      usual_ = level_ > 0 ? length * std::exp2(-level_) : std::max(usual_, length);
     }
     return true;
   }
@@ -92,23 +94,35 @@ class Collocation final : public StepMethod {
   /// end_ becomes the state h later, in two steps; its error in tolerances.
   double in_halves(double h) {
     constexpr double kNotConverged = 10;
-    const double whole = step(now_, h, middle_, whole_);
+    const double whole = step_anew(h, whole_);
+
+    // Each half begins with its part of the parabola of forces that the whole step has found.
+    half_.g = middle_.g;
+    end_.g = whole_.g;
+    for (std::size_t k = 0; k < half_.g.size(); ++k) {
+      const double start = now_.g[k], middle = half_.g[k], end = end_.g[k];
+      middle_.g[k] = 0.375 * start + 0.75 * middle - 0.125 * end;
+      three_quarters_.g[k] = 0.375 * end + 0.75 * middle - 0.125 * start;
+    }
     step(now_, 0.5 * h, middle_, half_);
-    const double halves = step(half_, 0.5 * h, middle_, end_);
+    const double halves = step(half_, 0.5 * h, three_quarters_, end_);
     return whole <= 1 && halves <= 1 ? distance(whole_.state.x, end_.state.x) / kGain
                                      : kNotConverged;
   }
 
-  /// `to` becomes the state h later, by way of `middle`; how far the last iteration moved it, in
-  /// tolerances.
+  /// A step from now_; the first guess is that forces stay as they are at the start.
+  double step_anew(double h, Node& to) {
+    middle_.g = to.g = now_.g;
+    return step(now_, h, middle_, to);
+  }
+
+  /// `to` becomes the state h later, by way of `middle`, whose forces and those of `to` are a first
+  /// guess; how far the last iteration moved it, in tolerances.
   double step(const Node& from, double h, Node& middle, Node& to) {
     ++counts_.steps;
-
-    // The first guess: forces stay as they are at the start.
     const Propagator& exact = propagator(h);
     middle.state.time = from.state.time + 0.5 * h;
     to.state.time = from.state.time + h;
-    middle.g = to.g = from.g;
     const double* g[3] = {from.g.data(), middle.g.data(), to.g.data()};
 
     // Motion under the parabola of forces, then forces of that motion, until the end stays.
@@ -191,7 +205,7 @@ class Collocation final : public StepMethod {
   const PlantForces& forces_;
   IntegratorOptions options_;
   std::map<long long, Propagator> propagators_;
-  Node now_, middle_, whole_, half_, end_;
+  Node now_, middle_, whole_, half_, three_quarters_, end_;
   std::vector<double> before_;
   int level_ = 0;     ///< a stretch is cut into 2^level steps
   double usual_ = 0;  ///< s, the length of the step before

@@ -13,6 +13,14 @@
 
 namespace dashpot {
 
+/// Steps one member of a family, of which it knows what stays as it is.
+class MemberSteps {
+ public:
+  virtual ~MemberSteps() = default;
+  virtual void advance(const DamperInput& from, const DamperInput& to, double dt,
+                       std::span<double> state) const noexcept = 0;
+};
+
 /// The learned part of a family's force: member, motion, current -> N. Immutable; the state lives
 /// outside.
 class FamilyForce {
@@ -24,6 +32,8 @@ class FamilyForce {
   virtual void rest(const DamperInput&, std::span<double>) const noexcept {}
   virtual void advance(const FamilyMember&, const DamperInput&, const DamperInput&, double,
                        std::span<double>) const noexcept {}
+  /// What steps a member in place of advance(), where much of a step is the same each time; null.
+  virtual std::shared_ptr<const MemberSteps> steps_of(const FamilyMember&) const { return {}; }
   /// The states where a sine that has long gone on passes a phase.
   virtual void settle(const FamilyMember&, const SteadySine&, double, std::span<double>) const {}
   virtual double force(const FamilyMember& member, const DamperInput& input,

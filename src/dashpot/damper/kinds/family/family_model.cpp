@@ -12,6 +12,7 @@ namespace dashpot {
 FamilyModel::FamilyModel(std::shared_ptr<const Family> family, FamilyMember member, double offset)
     : family_(std::move(family)),
       member_(std::move(member)),
+      steps_(family_->force->steps_of(member_)),
       offset_(offset),
       strength_(1 + family_->build_spread * member_.build) {}
 
@@ -38,7 +39,11 @@ void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double
   const DamperInput before = in_coil(from, state);
   if (member_.lag_rate > 0 && dt > 0)
     state[own] = lag_after(state[own], from.current, to.current, member_.lag_rate * dt);
-  family_->force->advance(member_, before, in_coil(to, state), dt, state.first(own));
+  const DamperInput after = in_coil(to, state);
+  if (steps_)
+    steps_->advance(before, after, dt, state.first(own));
+  else
+    family_->force->advance(member_, before, after, dt, state.first(own));
 }
 
 void FamilyModel::settle(const SteadySine& sine, double phase, std::span<double> state) const {

@@ -86,6 +86,7 @@ class FamilyModel final : public DamperModel {
 
   std::shared_ptr<const Family> family_;
   FamilyMember member_;
+  std::shared_ptr<const MemberSteps> steps_;
   double offset_, strength_;
 };
 

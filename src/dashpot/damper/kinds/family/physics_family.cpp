@@ -87,6 +87,32 @@ constexpr ReferenceField kReferences[] = {{"piston_area", &FamilyPhysics::Refere
                                           {"speed", &FamilyPhysics::Reference::speed},
                                           {"stroke", &FamilyPhysics::Reference::stroke}};
 
+PhysicsMember drawing_of(const FamilyMember& m) {
+  return {m.piston_area, m.gap_area, m.gap, m.pole_length, m.viscosity};
+}
+
+/// One damper, whose yielding force alone goes with the current.
+class PhysicsSteps final : public MemberSteps {
+ public:
+  PhysicsSteps(const FamilyPhysics& physics, const FamilyMember& member)
+      : field_(physics_field(&physics.reference, physics.numbers.data())), yield_(member.yield) {
+    const PhysicsMember drawing = drawing_of(member);
+    drawn_ = physics_drawn(&physics.reference, physics.numbers.data(), physics.deviation.data(),
+                           &drawing);
+  }
+  void advance(const DamperInput& from, const DamperInput& to, double dt,
+               std::span<double> state) const noexcept override {
+    FamilyPhysics::Element element = drawn_;
+    element.yielding *= physics_field_at(&field_, yield_.at(to.current), to.current);
+    physics_advance(&element, from.velocity, to.velocity, dt, state.data());
+  }
+
+ private:
+  PhysicsField field_;
+  YieldCurve yield_;
+  FamilyPhysics::Element drawn_;
+};
+
 enum Spring : std::size_t { kSeal, kFlow, kSprings };
 
 /// One spring of a damper at a constant current in a sine, as physics_advance() steps it. Neither
@@ -173,7 +199,7 @@ FamilyPhysics::Numbers FamilyPhysics::priors() noexcept {
 
 FamilyPhysics::Element FamilyPhysics::element(const FamilyMember& m,
                                               double current) const noexcept {
-  const PhysicsMember member{m.piston_area, m.gap_area, m.gap, m.pole_length, m.viscosity};
+  const PhysicsMember member = drawing_of(m);
   return physics_element(&reference, numbers.data(), deviation.data(), &member, m.yield.at(current),
                          current);
 }
@@ -187,11 +213,8 @@ void PhysicsFamily::rest(const DamperInput&, std::span<double> state) const noex
   std::ranges::fill(state, 0.);
 }
 
-void PhysicsFamily::advance(const FamilyMember& member, const DamperInput& from,
-                            const DamperInput& to, double dt,
-                            std::span<double> state) const noexcept {
-  const PhysicsElement element = physics_.element(member, to.current);
-  physics_advance(&element, from.velocity, to.velocity, dt, state.data());
+std::shared_ptr<const MemberSteps> PhysicsFamily::steps_of(const FamilyMember& member) const {
+  return std::make_shared<PhysicsSteps>(physics_, member);
 }
 
 void PhysicsFamily::settle(const FamilyMember& member, const SteadySine& sine, double phase,

@@ -80,8 +80,7 @@ class PhysicsFamily final : public FamilyForce {
   std::size_t parameter_count() const noexcept override { return kPhysicsNumbers + 1; }
   std::size_t state_size() const noexcept override { return kPhysicsStates; }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
-  void advance(const FamilyMember& member, const DamperInput& from, const DamperInput& to,
-               double dt, std::span<double> state) const noexcept override;
+  std::shared_ptr<const MemberSteps> steps_of(const FamilyMember& member) const override;
   void settle(const FamilyMember& member, const SteadySine& sine, double phase,
               std::span<double> state) const override;
   double force(const FamilyMember& member, const DamperInput& input,
