@@ -330,9 +330,11 @@ Assessment DesignProblem::assess_wanted(const DamperDescription& drawn,
       dampers.push_back(made(drawn, shares));
       if (!is_possible(dampers.back())) return impossible();
     }
-    std::vector<std::vector<double>> told(dampers.size());
-    parallel_for(dampers.size(), threads_,
-                 [&](std::size_t n) { told[n] = figures(dampers[n], of_made).values; });
+    // What nobody asks of them is not told.
+    std::vector<std::vector<double>> told(dampers.size(), std::vector<double>(all.size(), NAN));
+    if (std::ranges::any_of(of_made, [](auto asked) { return asked != 0; }))
+      parallel_for(dampers.size(), threads_,
+                   [&](std::size_t n) { told[n] = figures(dampers[n], of_made).values; });
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (is_drawn(k)) continue;
       std::vector<double> of_dampers;

@@ -133,13 +133,14 @@ Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& d
   add_local(problem, design, result);
 
   // Spread and shares of variance over the dampers made; rides are long, and have fewer of them.
-  bool any_ride = false, constrains_ride = false;
+  bool any_ride = false, all_ride = true, constrains_ride = false;
   for (std::size_t k = 0; k < result.figures.size(); ++k) {
     any_ride = any_ride || problem.needs_ride(k);
+    all_ride = all_ride && problem.needs_ride(k);
     constrains_ride =
         constrains_ride || (problem.needs_ride(k) && k >= problem.request().goals.size());
   }
-  const Samples unridden = sample(problem, design, options, false);
+  const Samples unridden = all_ride ? Samples() : sample(problem, design, options, false);
   const Samples ridden = any_ride ? sample(problem, design, options, true) : Samples();
   for (std::size_t k = 0; k < result.figures.size(); ++k) {
     const Samples& samples = problem.needs_ride(k) ? ridden : unridden;
@@ -148,7 +149,7 @@ Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& d
   }
 
   // The share of them that holds every constraint.
-  const Samples& all = constrains_ride ? ridden : unridden;
+  const Samples& all = constrains_ride || all_ride ? ridden : unridden;
   std::size_t holding = 0;
   for (const Rows* rows : {&all.a, &all.b})
     for (const auto& row : *rows) holding += holds_all(problem.request(), row);
