@@ -73,6 +73,7 @@ class RunTangent {
  public:
   void add(const StepTangent& step);
   StepTangent at(std::size_t step) const;
+  std::size_t size() const { return numbers_.size() / (2 + states_); }
 
  private:
   std::size_t states_ = 0;  ///< of a damper
