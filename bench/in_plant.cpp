@@ -2,7 +2,7 @@
 //
 //   bench_in_plant grey train.csv     Noel and Schoukens' benchmark, its structure known
 //   bench_in_plant black train.csv    the same, no law named
-//   bench_in_plant car LAW...         a virtual quarter car whose damper is of another structure
+//   bench_in_plant car MODEL...       a virtual quarter car whose damper is of another structure
 //   bench_in_plant minute LAW...      the same over 60 s, three numbers of the plant unknown
 //   bench_in_plant unmeasured TRUTH CLASS SECONDS LAW...   the same on a road that nothing measures
 //   bench_in_plant cover REPETITIONS TRUTH CLASS SECONDS LAW, sensors TRUTH CLASS SECONDS LAW,
@@ -25,6 +25,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/machine/duhem_law.h"
+#include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/simulate.h"
 #include "dashpot/vehicle.h"
@@ -213,7 +214,7 @@ double force_error(const InPlantReport& report, bool is_minute) {
   return 100 * std::sqrt(squares / count) / (high - low);
 }
 
-void run_car(const std::vector<std::string>& laws, bool is_minute) {
+void run_car(const std::vector<std::string>& models, bool is_minute) {
   // Three rides at three voltages; road, two accelerations and the deflection are measured.
   std::vector<PlantRecording> recordings;
   for (std::size_t k = 0; k < kVoltages.size(); ++k) {
@@ -240,16 +241,26 @@ void run_car(const std::vector<std::string>& laws, bool is_minute) {
   setup.drive = "suspension_current";
   setup.drive_unit = DriveUnit::Volt;
   setup.skip = 0.2;
-  for (const std::string& law : laws) {
+  // Each by itself, but for what learns along a law.
+  std::vector<std::vector<std::string>> turns;
+  if (std::ranges::all_of(models, is_law))
+    for (const std::string& law : models) turns.push_back({law});
+  else
+    turns.push_back(models);
+  for (const std::vector<std::string>& turn : turns) {
     const auto started = std::chrono::steady_clock::now();
-    const InPlantReport report =
-        identify_in_plant(find_law(law), setup, recordings, quiet_options());
+    const std::vector<InPlantFit> fits =
+        identify_in_plant(turn, setup, recordings, quiet_options());
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started;
-    fmt::print("\n{}; {:.1f} s passed\n", law, passed.count());
-    print_report(report);
-    fmt::print("force on another road: {:.2f} % of its span, rms\n",
-               force_error(report, is_minute));
-    std::fflush(stdout);
+    fmt::print("\n{:.1f} s passed\n", passed.count());
+    for (const InPlantFit& fit : fits) {
+      fmt::print("\n{}{}{}\n", fit.model, fit.report.along.empty() ? "" : ", along ",
+                 fit.report.along);
+      print_report(fit.report);
+      fmt::print("force on another road: {:.2f} % of its span, rms\n",
+                 force_error(fit.report, is_minute));
+      std::fflush(stdout);
+    }
   }
 }
 

@@ -326,7 +326,7 @@ DASHPOT_API void dashpot_rides_free(dashpot_rides** rides);
 /// the text of such a file (docs/in-plant.md). Options in the words of the command: {"models":
 /// ["tanh_kwok"], "form": [...], "fix": [...], "free": [...], "bounds": [...], "starts": 12,
 /// "seed": 1, "threads": 0, "grade": "car", "profile": ["sprung_mass"], "command": "TEXT that the
-/// model file keeps"}; "models" has one law here, the others may be absent. The report (null: not
+/// model file keeps"}; "models" has one name here, the others may be absent. The report (null: not
 /// wanted) is that of the command, and "found": the plant as it was found, which dashpot_observe
 /// takes. DASHPOT_NOT_USABLE where the plant diverges wherever the fit begins; the report says how.
 DASHPOT_API dashpot_status dashpot_identify_in_plant(const dashpot_rides* rides, const char* plant,

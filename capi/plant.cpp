@@ -2,6 +2,7 @@
 #include "dashpot/base/escape.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
@@ -38,10 +39,11 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
   const InPlantSetup setup = setup_of(plant);
   const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
   const std::vector<std::string>& models = words.fit.words.models;
-  const Law& law = law_for_plant(models.front(), "options, models");
+  require_model_for_plant(models.front(), setup, "options, models");
   find_sensor_grade(words.grade, "options, grade");
   const IdentifyOptions fit = identify_options(words.fit.words, models, "options, ");
   InPlantOptions options{.choices = fit.choices,
+                         .network = fit.network,
                          .starts = fit.starts,
                          .seed = fit.seed,
                          .threads = fit.threads,
@@ -52,7 +54,7 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
   InPlantReport found;
   run_watched(monitor, [&](const Monitor& watched) {
     options.monitor = watched;
-    found = identify_in_plant(law, setup, recordings, options);
+    found = identify_in_plant(models, setup, recordings, options).back().report;
   });
 
   // The report is written before a failed fit is refused, since it says why.

@@ -10,6 +10,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "document_text.h"
 #include "plant_advice_section.h"
@@ -19,20 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A law that was fitted in the plant.
-struct InPlantFit {
-  std::string law;
-  InPlantReport report;
-
-  /// Error on the time held back over what the sensor showed, %: the worst sensor; the training
-  /// time's where nothing was held back.
-  double worst() const {
-    double share = 0;
-    for (const SensorFigures& s : report.sensors)
-      share = std::max(share, 100 * (std::isnan(s.held_back) ? s.training : s.held_back) / s.rms);
-    return report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
-  }
-};
+/// Error on the time held back over what the sensor showed, %: the worst sensor; the training
+/// time's where nothing was held back.
+double worst_of(const InPlantFit& fit) {
+  double share = 0;
+  for (const SensorFigures& s : fit.report.sensors)
+    share = std::max(share, 100 * (std::isnan(s.held_back) ? s.training : s.held_back) / s.rms);
+  return fit.report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
+}
 
 /// What has a meaning on the bench alone is refused, before any work.
 void require_meaning(const RankingSettings& settings) {
@@ -44,24 +39,23 @@ void require_meaning(const RankingSettings& settings) {
   const FitSettings& fit = settings.fit;
   refuse(!settings.leave_out.empty(), "--leave-out",
          "'held_back' of the plant says which share of each recording judges the fit");
-  refuse(!fit.network.empty(), "--network", "laws alone are identified inside a plant");
   refuse(!fit.priors.empty(), "--prior", "state --bounds, or a range of the plant's parameters");
   refuse(fit.options.search > 0, "--search", "--starts says how many starts are tried");
   refuse(!settings.data.load.dataset_file.empty(), "--dataset",
          "the plant says which channel is which");
   refuse(settings.results.figures, "--figures", "the page has its figures");
 
-  // Laws alone, and by their names: none is usual there.
+  // Models by their names: none is usual there.
   if (fit.models == std::vector<std::string>{"usual"})
     throw UsageError("--models", "is not stated",
-                     "with --in, name the laws that are to be fitted: --models modified_bouc_wen");
-  for (const std::string& name : fit.models) law_for_plant(name, "--models");
+                     "with --in, name what is to be fitted: --models modified_bouc_wen");
 }
 
 std::string value_text(const FittedParameter& p) { return format_number(p.value, 5); }
 
 std::string interval_text(const FittedParameter& p) {
   if (p.fixed) return "fixed";
+  if (!has_interval(p)) return "none";
   return format_number(p.low, 5) + " ... " + format_number(p.high, 5);
 }
 
@@ -134,6 +128,12 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
     return lines;
   }
 
+  if (!report.along.empty())
+    lines.push_back(fmt::format(
+        "The model learnt from the damper's motion and force that the sensors tell along {}. The "
+        "numbers of the plant have no intervals beside it: those of {} say what the sensors tell.",
+        report.along, report.along));
+
   // How it was integrated, and how well.
   lines.push_back(fmt::format(
       "Integrated {}, {} steps per sample; half the step changes the worst sensor by {} % of its "
@@ -195,6 +195,12 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
   return figure;
 }
 
+std::string remark_of(const InPlantFit& fit) {
+  if (fit.report.status != FitReport::Status::Converged) return fit.report.message;
+  if (!fit.was_asked_for) return "not asked for: the others learnt along it";
+  return fit.report.along.empty() ? "" : "learnt along " + fit.report.along;
+}
+
 Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSetup& setup,
                            const Console& console) {
   const InPlantFit& best = fits.front();
@@ -211,31 +217,31 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
           ? fmt::format(
                 "{} in the {}: {} % of the worst sensor's rms is left on the time held "
                 "back, {}.",
-                best.law, setup.model->name, format_number(best.worst(), 3),
+                best.model, setup.model->name, format_number(worst_of(best), 3),
                 best.report.road_measured ? "in free run"
                                           : "one sample ahead; nothing measures the road")
-          : "No law could be fitted: " + best.report.message;
+          : "Nothing could be fitted: " + best.report.message;
 
-  // The laws beside each other, where there are several.
+  // The models beside each other, where there are several.
   if (fits.size() > 1) {
-    DocumentTable laws{.title = "Laws, by the worst sensor on the time held back",
-                       .columns = {{"law"}, {"error %", true}, {"CPU s", true}, {"remark"}},
+    DocumentTable laws{.title = "Models, by the worst sensor on the time held back",
+                       .columns = {{"model"}, {"error %", true}, {"CPU s", true}, {"remark"}},
                        .rows = {}};
     for (const InPlantFit& fit : fits)
-      laws.rows.push_back(
-          {fit.law, format_number(fit.worst(), 3), format_number(fit.report.seconds, 3),
-           fit.report.status == FitReport::Status::Converged ? "" : fit.report.message});
+      laws.rows.push_back({fit.model, format_number(worst_of(fit), 3),
+                           format_number(fit.report.seconds, 3), remark_of(fit)});
     document.sections.push_back(
-        {.name = "laws", .title = "Laws", .paragraphs = {}, .tables = {std::move(laws)}});
+        {.name = "models", .title = "Models", .paragraphs = {}, .tables = {std::move(laws)}});
   }
 
   // The best of them in full.
   if (best.report.model) {
-    DocumentSection section{.name = "fit", .title = best.law, .paragraphs = {}};
+    DocumentSection section{.name = "fit", .title = best.model, .paragraphs = {}};
     section.tables = {sensor_table(best.report)};
     if (!best.report.plant.empty())
       section.tables.push_back(parameter_table("Plant", best.report.plant));
-    section.tables.push_back(parameter_table("Damper", best.report.damper));
+    if (!best.report.damper.empty())
+      section.tables.push_back(parameter_table("Damper", best.report.damper));
     if (!best.report.nuisances.empty())
       section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
     if (best.report.road_measured) section.tables.back().audience = Audience::Files;
@@ -245,7 +251,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
     document.sections.push_back(std::move(section));
   }
   Value list = Value::array();
-  for (const InPlantFit& fit : fits) list.push_back(to_json(fit.report, fit.law));
+  for (const InPlantFit& fit : fits) list.push_back(to_json(fit.report, fit.model));
   document.data = Value::object({{"plant", setup.model->name}, {"fits", std::move(list)}});
   return document;
 }
@@ -266,8 +272,8 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
   }
 
   if (!file.dissipation->dissipates())
-    console.warn(fit.law + ": " + activity(*file.dissipation, file.drive_unit));
-  save_model(file, folder / (fit.law + ".json"));
+    console.warn(fit.model + ": " + activity(*file.dissipation, file.drive_unit));
+  save_model(file, folder / (fit.model + ".json"));
 }
 
 }  // namespace
@@ -283,8 +289,8 @@ std::vector<Option> in_plant_options(InPlantSettings& settings) {
            .value = "PLANT",
            .takes = Takes::File,
            .default_text = "a bench that measures the damper's force",
-           .details = "; the laws of --models are identified as part of it, with its unknown "
-                      "numbers"},
+           .details = "; the models of --models are identified as part of it, with its unknown "
+                      "numbers: laws in free run, others along the best of these laws"},
           {.names = "--grade",
            .target = &settings.grade,
            .help = "with --in: the grade of the sensors that it tries beside those that are there",
@@ -302,6 +308,8 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   // All that can be wrong is found before the work.
   require_meaning(settings);
   const InPlantSetup setup = read_in_plant_setup(asked.plant);
+  for (const std::string& model : settings.fit.models)
+    require_model_for_plant(model, setup, "--models");
   if (settings.fit.options.asymmetric && !has_unmeasured_road(setup))
     throw UsageError("--asymmetric", "has no meaning where the road is measured",
                      "both sides of the damper are alike there");
@@ -312,8 +320,9 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
     recordings.push_back(read_plant_recording(file, setup.channels()));
   prepare_results(settings.results);
 
-  // Each law in turn, the best first.
+  // Each model in turn, the best first.
   InPlantOptions options{.choices = fit.choices,
+                         .network = fit.network,
                          .asymmetric = fit.asymmetric,
                          .seed = fit.seed,
                          .threads = fit.threads,
@@ -321,23 +330,20 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
                          .profiles = asked.profiles,
                          .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
-  std::vector<InPlantFit> fits;
-  for (const std::string& name : settings.fit.models)
-    fits.push_back(
-        {name, identify_in_plant(law_for_plant(name, "--models"), setup, recordings, options)});
-  std::ranges::stable_sort(fits, {}, &InPlantFit::worst);
+  std::vector<InPlantFit> fits = identify_in_plant(settings.fit.models, setup, recordings, options);
+  std::ranges::stable_sort(fits, {}, worst_of);
 
   // What came out of it.
   const Document document = in_plant_document(fits, setup, console);
   print_document(document, console);
   for (const InPlantFit& one : fits)
-    for (const std::string& warning : one.report.warnings) console.warn(one.law + ": " + warning);
+    for (const std::string& warning : one.report.warnings) console.warn(one.model + ": " + warning);
   const fs::path folder = settings.results.folder, models = folder / "models",
                  plants = folder / "plants";
   for (const InPlantFit& one : fits)
     if (one.report.model) {
       save_damper(one, setup, files, recordings.front().sample_time, models, console);
-      write_file(plants / (one.law + ".json"), format_json(to_json(as_found(setup, one.report))));
+      write_file(plants / (one.model + ".json"), format_json(to_json(as_found(setup, one.report))));
     }
   std::string where = "\n";
   if (settings.results.report) where += write_document(document, folder, "report");
@@ -345,7 +351,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
                 "/, as they were found" +
                 (setup.dampers() == 1 ? ", for 'dashpot observe'\n" : "\n"));
   if (console.json) console.print_json(document_json(document));
-  return std::isfinite(fits.front().worst()) ? kDone : kNotUsable;
+  return std::isfinite(worst_of(fits.front())) ? kDone : kNotUsable;
 }
 
 }  // namespace dashpot::cli

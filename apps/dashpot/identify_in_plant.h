@@ -15,8 +15,8 @@ struct InPlantSettings {
 };
 std::vector<Option> in_plant_options(InPlantSettings& settings);
 
-/// Identifies the laws asked for as the damper of a plant from recordings of that plant: prints and
-/// writes a report, and a model file per law. Throws UsageError at settings that have no meaning
+/// Identifies the models asked for as the damper of a plant from its recordings: prints and
+/// writes a report, and a model file per model. Throws UsageError at settings that have no meaning
 /// there, Error at a plant and recordings that do not fit.
 int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console);
 

@@ -100,6 +100,50 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
                   .monitor = {.on_progress = {}, .stop = options.monitor.stop}});
 }
 
+ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecording> fitted,
+                                   const std::vector<InPlantTrace>& along,
+                                   const InPlantOptions& options) {
+  std::vector<PlantInputPlace> inputs;
+  for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
+  const Plant plant = make_plant(*setup.model, setup.known);
+  const double damping = usual_dashpot(DrivenPlant(plant, inputs));
+  const std::vector<double>& row = plant.struts.front().row;
+
+  // The model's force without that of the dashpot which stands in its place, as a measured input.
+  std::vector<std::vector<double>> force;
+  for (std::size_t r = 0; r < fitted.size(); ++r) {
+    const DamperTrace& trace = along[r].dampers.front();
+    const auto first = static_cast<std::size_t>(setup.skip / fitted[r].sample_time);
+    force.emplace_back();
+    for (std::size_t k = first; k < first + fitted[r].samples; ++k)
+      force.back().push_back(trace.force[k] - damping * trace.velocity[k]);
+  }
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] == 0) continue;
+    const std::string channel = "force of a model on " + plant.coordinates[i].name;
+    setup.inputs.push_back({channel, {PlantInput::Force, i}});
+    for (std::size_t r = 0; r < fitted.size(); ++r) {
+      std::vector<double> pushes;
+      for (const double newton : force[r]) pushes.push_back(-row[i] * newton);
+      fitted[r].channels.push_back(
+          {.name = channel, .unit = "N", .samples = std::move(pushes), .origin = "modelled"});
+    }
+  }
+
+  // What is told then lacks it.
+  const auto dashpot = std::make_shared<LawModel>(dashpot_model(damping));
+  Domain domain = usual_domain(0, 0);
+  ObserveReport observed = observe(dashpot, domain, setup, fitted,
+                                   {.force = {},
+                                    .steps = 1,
+                                    .threads = options.threads,
+                                    .monitor = {.on_progress = {}, .stop = options.monitor.stop}});
+  for (std::size_t r = 0; r < fitted.size(); ++r)
+    for (std::size_t k = 0; k < force[r].size(); ++k)
+      observed.recordings[r].quantities[0].value[k] += force[r][k];
+  return observed;
+}
+
 std::shared_ptr<const DamperModel> fit_as_on_bench(const Law& law, const InPlantSetup& setup,
                                                    const std::vector<Record>& records,
                                                    const InPlantOptions& options) {

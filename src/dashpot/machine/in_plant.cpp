@@ -9,7 +9,6 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/beside_noise.h"
@@ -324,13 +323,6 @@ void add_road_delays(const InPlantSetup& asked, const InPlantSetup& found, InPla
 }
 
 }  // namespace
-
-const Law& law_for_plant(const std::string& name, const std::string& where) {
-  if (is_law(name)) return find_law(name);
-  model_info(name, where);
-  throw Error(where, "'" + name + "' is no law, and laws alone are identified inside a plant",
-              "a law, as tanh_kwok or modified_bouc_wen; 'dashpot models' lists them");
-}
 
 InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 const std::vector<PlantRecording>& as_recorded,

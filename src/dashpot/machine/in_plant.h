@@ -25,10 +25,6 @@ struct Law;
 //
 // Where nothing measures the road, nothing can be run free; without_road.h says what is done then.
 
-/// The law of that name. Throws Error(where, ...) at another kind of model, which a bench alone
-/// identifies, and at a name that no model has.
-const Law& law_for_plant(const std::string& name, const std::string& where);
-
 /// Identifies the law as the damper of this plant. Throws Error, before long work, where these
 /// recordings cannot serve: an input that is constant, a current that never changes though a form
 /// over current was asked for. Not converging is a status.

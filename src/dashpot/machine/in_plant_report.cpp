@@ -47,6 +47,8 @@ std::vector<bool> weak_ones(const Covariance& spread, std::size_t n) {
 
 }  // namespace
 
+bool has_interval(const FittedParameter& parameter) { return !std::isnan(parameter.low); }
+
 std::string name_in_law(const InPlantUnknowns& unknowns, std::size_t first, std::size_t k,
                         std::size_t size) {
   const std::size_t own = k - first;

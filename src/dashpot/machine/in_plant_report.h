@@ -61,7 +61,8 @@ struct InPlantReport {
   std::vector<InPlantTrace> traces;
   std::vector<std::string> warnings;
   bool road_measured = true;
-  Domain domain;  ///< of the damper's motion, as modelled
+  std::string along;  ///< the law along which a model learnt that is no law
+  Domain domain;      ///< of the damper's motion, as modelled
   int iterations = 0;
   double seconds = 0;     ///< CPU time
   std::size_t steps = 1;  ///< of the integrator per sample
@@ -69,6 +70,9 @@ struct InPlantReport {
   /// What half the step changes, rms, as a share of the rms error; the worst sensor.
   double step_error = 0;
 };
+
+/// Whether a number has an interval: where a model is held that is no law, it has none.
+bool has_interval(const FittedParameter& parameter);
 
 /// The unknowns of a fit inside a plant, whatever its objective: the plant's numbers, the law's,
 /// then nuisances.

@@ -8,14 +8,15 @@ namespace dashpot {
 namespace {
 
 Value value_of(const FittedParameter& p) {
-  return Value::object({{"name", p.name},
-                        {"unit", p.unit},
-                        {"value", p.value},
-                        {"low", p.low},
-                        {"high", p.high},
-                        {"fixed", p.fixed},
-                        {"at_bound", p.at_bound},
-                        {"weak", p.weak}});
+  Value value = Value::object({{"name", p.name}, {"unit", p.unit}, {"value", p.value}});
+  if (has_interval(p)) {
+    value.add("low", p.low);
+    value.add("high", p.high);
+  }
+  value.add("fixed", p.fixed);
+  value.add("at_bound", p.at_bound);
+  value.add("weak", p.weak);
+  return value;
 }
 
 Value value_of(const SensorFigures& s) {
@@ -71,22 +72,24 @@ Value to_json(const InPlantReport& r, const std::string& law) {
   Value confounded = Value::array();
   for (const auto& group : r.knowable.confounded) confounded.push_back(Value::array(group));
 
-  return Value::object({{"law", law},
-                        {"converged", r.status == FitReport::Status::Converged},
-                        {"message", r.message},
-                        {"iterations", r.iterations},
-                        {"cpu_seconds", r.seconds},
-                        {"steps_per_sample", r.steps},
-                        {"step_error", r.step_error},
-                        {"plant", values_of(r.plant)},
-                        {"damper", values_of(r.damper)},
-                        {"nuisances", values_of(r.nuisances)},
-                        {"singular_values", Value::array(r.knowable.singular_values)},
-                        {"without_effect", Value::array(r.knowable.without_effect)},
-                        {"confounded", std::move(confounded)},
-                        {"sensors", values_of(r.sensors)},
-                        {"advice", to_json(r.advice)},
-                        {"warnings", Value::array(r.warnings)}});
+  Value told = Value::object({{"law", law},
+                              {"converged", r.status == FitReport::Status::Converged},
+                              {"message", r.message},
+                              {"iterations", r.iterations},
+                              {"cpu_seconds", r.seconds},
+                              {"steps_per_sample", r.steps},
+                              {"step_error", r.step_error},
+                              {"plant", values_of(r.plant)},
+                              {"damper", values_of(r.damper)},
+                              {"nuisances", values_of(r.nuisances)},
+                              {"singular_values", Value::array(r.knowable.singular_values)},
+                              {"without_effect", Value::array(r.knowable.without_effect)},
+                              {"confounded", std::move(confounded)},
+                              {"sensors", values_of(r.sensors)},
+                              {"advice", to_json(r.advice)},
+                              {"warnings", Value::array(r.warnings)}});
+  if (!r.along.empty()) told.add("along", r.along);
+  return told;
 }
 
 ModelFile found_damper(const InPlantReport& report, const InPlantSetup& setup, double sample_time) {

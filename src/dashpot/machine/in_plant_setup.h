@@ -94,6 +94,7 @@ bool has_unmeasured_road(const InPlantSetup& setup);
 
 struct InPlantOptions {
   std::vector<ParameterChoice> choices;  ///< of the law, as on the bench
+  NetworkDesign network;                 ///< of models that are no laws, likewise
   bool asymmetric = false;  ///< without a road: rebound and compression apart where that pays
   int starts = 12;
   int iterations = 100;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -92,7 +93,18 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
                                const LawUnknowns& law, const std::vector<double>& plant,
                                const DataScale& scale)
-    : setup_(&setup), cases_(&cases), law_(&law) {
+    : PlantResiduals(setup, cases, &law, nullptr, plant, scale) {}
+
+PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
+                               const DamperModel& held, const std::vector<double>& plant,
+                               const DataScale& scale)
+    : PlantResiduals(setup, cases, nullptr, &held, plant, scale) {}
+
+PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
+                               const LawUnknowns* law, const DamperModel* held,
+                               const std::vector<double>& plant, const DataScale& scale)
+    : setup_(&setup), cases_(&cases), law_(law), held_(held) {
+  if (law) law_states_ = law->model(law->start()).law().states;
   for (const PlantInputChannel& input : setup.inputs) inputs_.push_back(input.place);
   for (const PlantSensor& sensor : setup.sensors) sensors_.push_back(sensor.place);
   const auto add = [&](double size, double lower, double upper) {
@@ -106,20 +118,20 @@ PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& case
     add(plant[k] != 0 ? std::abs(plant[k]) : 1, setup.unknown[k].lower, setup.unknown[k].upper);
 
   // The law's, which have sizes and bounds of their own.
-  lower_.insert(lower_.end(), law.lower().begin(), law.lower().end());
-  upper_.insert(upper_.end(), law.upper().begin(), law.upper().end());
-  size_.resize(lower_.size(), 1.0);
+  if (law) {
+    lower_.insert(lower_.end(), law->lower().begin(), law->lower().end());
+    upper_.insert(upper_.end(), law->upper().begin(), law->upper().end());
+    size_.resize(lower_.size(), 1.0);
+  }
 
   // The state at the beginning of each recording, in the size of the damper's motion.
   first_state_ = size_.size();
-  const LawModel example = law.model(law.start());
   coordinates_ = make_plant(*setup.model, setup.known).size();
   if (!setup.from_rest) {
     state_size_.assign(coordinates_, scale.stroke);
     state_size_.insert(state_size_.end(), coordinates_, scale.speed);
     for (std::size_t d = 0; d < setup.dampers(); ++d)
-      for (const StateInfo& state : example.law().states)
-        state_size_.push_back(scale.of_unit(state.unit));
+      for (const StateInfo& state : law_states_) state_size_.push_back(scale.of_unit(state.unit));
   }
   for (std::size_t c = 0; c < cases.all.size(); ++c)
     for (const double size : state_size_) add(size, -kUnbounded, kUnbounded);
@@ -159,8 +171,8 @@ std::vector<double> PlantResiduals::start(const std::vector<double>& plant,
                                           Random* random) const {
   std::vector<double> x(size_.size(), 0.0);
   for (std::size_t k = 0; k < plant.size(); ++k) x[k] = plant[k] / size_[k];
-  const std::vector<double> law = law_->start(random);
-  std::ranges::copy(law, x.begin() + static_cast<std::ptrdiff_t>(plant.size()));
+  if (law_)
+    std::ranges::copy(law_->start(random), x.begin() + static_cast<std::ptrdiff_t>(plant.size()));
   for (std::size_t k = 0; k < beginnings.size(); ++k) {
     const std::size_t unknown =
         first_state_ + k / (2 * coordinates_) * states() + k % (2 * coordinates_);
@@ -172,6 +184,7 @@ std::vector<double> PlantResiduals::start(const std::vector<double>& plant,
 }
 
 std::vector<double> PlantResiduals::off_bounds(std::vector<double> x) const {
+  if (!law_) return x;
   const auto first = x.begin() + static_cast<std::ptrdiff_t>(plant_unknowns());
   const auto end = x.begin() + static_cast<std::ptrdiff_t>(first_state_);
   std::ranges::copy(law_->off_bounds({first, end}), first);
@@ -183,11 +196,18 @@ bool PlantResiduals::is_of_law(std::size_t k) const {
 }
 
 LawModel PlantResiduals::damper(std::span<const double> x) const {
+  assert(law_);
   return law_->model(x.subspan(plant_unknowns(), law_->size()));
+}
+
+std::shared_ptr<const DamperModel> PlantResiduals::model(std::span<const double> x) const {
+  if (law_) return std::make_shared<LawModel>(damper(x));
+  return {std::shared_ptr<const DamperModel>(), held_};  // owned by the caller
 }
 
 std::vector<LawUnknowns::Coefficient> PlantResiduals::law_coefficients(
     std::span<const double> x) const {
+  if (!law_) return {};
   return law_->coefficients(x.subspan(plant_unknowns(), law_->size()));
 }
 
@@ -218,7 +238,6 @@ FittedParameter PlantResiduals::described(std::size_t k, std::span<const double>
   const std::size_t place = (k - first_state_) % states(), c = (k - first_state_) / states();
   const Plant plant = make_plant(*setup_->model, setup_->known);
   const std::size_t n = plant.size();
-  const LawModel model = damper(x);
   p.meaning = "at the beginning of " + cases_->all[c].name;
   if (place < 2 * n) {
     const Coordinate& coordinate = plant.coordinates[place % n];
@@ -226,7 +245,7 @@ FittedParameter PlantResiduals::described(std::size_t k, std::span<const double>
     p.unit = coordinate.unit + (place < n ? "" : "/s");
     return p;
   }
-  const auto& own = model.law().states;
+  const std::span<const StateInfo> own = law_states_;
   const StateInfo& state = own[(place - 2 * n) % own.size()];
   const std::string& strut = plant.struts[(place - 2 * n) / own.size()].name;
   p.name = (plant.struts.size() > 1 ? strut + "_" : "") + std::string(state.name);
@@ -245,9 +264,9 @@ DrivenPlant PlantResiduals::equations(std::span<const double> x) const {
 
 std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, std::size_t place,
                                                    const DrivenPlant& plant,
-                                                   const LawModel& damper) const {
+                                                   const DamperModel& damper) const {
   std::vector<double> state = plant.at_rest(damper, cases_->all[place].driving.current.front());
-  const std::size_t of_plant = 2 * coordinates_, of_law = damper.law().states.size();
+  const std::size_t of_plant = 2 * coordinates_, of_law = law_states_.size();
   for (std::size_t k = 0; k < states(); ++k) {
     // Behind the law's states each damper may have one of its coil, which begins at rest.
     const std::size_t before = k < of_plant ? 0 : (k - of_plant) / of_law;
@@ -258,7 +277,7 @@ std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, st
 }
 
 bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
-                         const LawModel& damper, const PlantCase& one, std::size_t place,
+                         const DamperModel& damper, const PlantCase& one, std::size_t place,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
                          Shown& shown, const RunBeside& beside) const {
   std::vector<double> state = state_at_first(x, place, plant, damper);
@@ -305,14 +324,14 @@ bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, 
   const std::size_t end = end_of(one, samples), length = end - one.first;
 
   // A current that never changes leaves constant parameters, which are quicker.
-  LawModel model = damper(x);
-  if (one.steady) {
-    std::vector<double> parameters(model.law().params.size());
-    model.parameters_at(one.driving.current.front(), parameters.data());
-    model = LawModel::constant(model.law(), parameters);
+  std::shared_ptr<const DamperModel> damper = model(x);
+  if (const LawModel* law = model_as<LawModel>(*damper); law_ && one.steady) {
+    std::vector<double> parameters(law->law().params.size());
+    law->parameters_at(one.driving.current.front(), parameters.data());
+    damper = std::make_shared<LawModel>(LawModel::constant(law->law(), parameters));
   }
   Shown shown;
-  if (!run(x, equations(x), model, one, place, end, sensors_, shown, beside)) return false;
+  if (!run(x, equations(x), *damper, one, place, end, sensors_, shown, beside)) return false;
   std::vector<double> samples_beyond(noise_ ? sensors_.size() * length : 0);
   const std::span<double> beyond = noise_ ? std::span(samples_beyond) : r;
   for (std::size_t s = 0; s < sensors_.size(); ++s) {
@@ -519,7 +538,7 @@ PlantResiduals::Shown PlantResiduals::other_sensors(
   all.insert(all.end(), places.begin(), places.end());
   const PlantCase& one = cases_->all[recording];
   Shown shown;
-  if (!run(x, equations(x), damper(x), one, recording, one.training, all, shown)) return {};
+  if (!run(x, equations(x), *model(x), one, recording, one.training, all, shown)) return {};
   shown.erase(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(sensors_.size()));
   for (std::vector<double>& samples : shown) {
     samples.resize(one.training);
@@ -534,13 +553,13 @@ double PlantResiduals::step_error(std::span<const double> x,
                                   const std::vector<PlantRecording>& recordings) const {
   const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps, cases_->method);
   const DrivenPlant plant = equations(x);
-  const LawModel model = damper(x);
+  const std::shared_ptr<const DamperModel> damper = model(x);
   double worst = 0;
   for (std::size_t c = 0; c < finer.all.size(); ++c) {
     const PlantCase& one = cases_->all[c];
     Shown coarse, fine;
-    if (!run(x, plant, model, one, c, one.training, sensors_, coarse) ||
-        !run(x, plant, model, finer.all[c], c, one.training, sensors_, fine))
+    if (!run(x, plant, *damper, one, c, one.training, sensors_, coarse) ||
+        !run(x, plant, *damper, finer.all[c], c, one.training, sensors_, fine))
       return kUnbounded;
 
     // The change against the error that is left, both without their means.
@@ -560,11 +579,11 @@ double PlantResiduals::step_error(std::span<const double> x,
 
 bool PlantResiduals::diverges(std::span<const double> x) const {
   const DrivenPlant plant = equations(x);
-  const LawModel model = damper(x);
+  const std::shared_ptr<const DamperModel> damper = model(x);
   Shown shown;
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const PlantCase& one = cases_->all[c];
-    if (!run(x, plant, model, one, c, one.driving.samples, sensors_, shown)) return true;
+    if (!run(x, plant, *damper, one, c, one.driving.samples, sensors_, shown)) return true;
   }
   return false;
 }
@@ -580,7 +599,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
          {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
       places.push_back({own, 0, d});
 
-  const LawModel model = damper(x);
+  const std::shared_ptr<const DamperModel> damper = model(x);
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const PlantCase& one = cases_->all[c];
     const std::size_t count = one.driving.samples, stride = one.driving.stride();
@@ -589,7 +608,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
                        .training = one.training,
                        .measured = one.measured};
     Shown shown;
-    const bool finite = run(x, plant, model, one, c, count, places, shown);
+    const bool finite = run(x, plant, *damper, one, c, count, places, shown);
 
     // Each sensor's offset is that of the part which was fitted; its errors with that taken off.
     for (std::size_t s = 0; s < sensors_.size(); ++s) {

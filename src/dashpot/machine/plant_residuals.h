@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,13 +41,17 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
-/// delays. The law is that of every damper in the plant. All that it is made from must outlive it.
+/// delays. The law is that of every damper in the plant. A model may stand in the law's place, held
+/// as it is: then the damper has no unknowns, and its states begin at rest. All that it is made
+/// from must outlive it.
 class PlantResiduals : public InPlantUnknowns {
  public:
   using Shown = std::vector<std::vector<double>>;  ///< per sensor
 
   /// plant: where the plant's unknowns start, SI; scale: of the damper's motion.
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns& law,
+                 const std::vector<double>& plant, const DataScale& scale);
+  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperModel& held,
                  const std::vector<double>& plant, const DataScale& scale);
 
   /// The start: the plant's numbers and, per recording, coordinates and their velocities at its
@@ -81,6 +86,7 @@ class PlantResiduals : public InPlantUnknowns {
   double size_at(std::size_t k, std::span<const double>) const override { return size_[k]; }
   FittedParameter described(std::size_t k, std::span<const double> x) const override;
   std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const override;
+  /// Of a law.
   LawModel damper(std::span<const double> x) const;
 
   /// What sensors at other places would show in a recording, without offset and delay: per place
@@ -99,10 +105,15 @@ class PlantResiduals : public InPlantUnknowns {
                 std::vector<InPlantTrace>& traces) const;
 
  private:
+  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns* law,
+                 const DamperModel* held, const std::vector<double>& plant, const DataScale& scale);
+  /// The damper at x: the law's, or the model that is held.
+  std::shared_ptr<const DamperModel> model(std::span<const double> x) const;
+  std::size_t law_unknowns() const { return law_ ? law_->size() : 0; }
   DrivenPlant equations(std::span<const double> x) const;
   std::vector<double> state_at_first(std::span<const double> x, std::size_t place,
-                                     const DrivenPlant& plant, const LawModel& damper) const;
-  bool run(std::span<const double> x, const DrivenPlant& plant, const LawModel& damper,
+                                     const DrivenPlant& plant, const DamperModel& damper) const;
+  bool run(std::span<const double> x, const DrivenPlant& plant, const DamperModel& damper,
            const PlantCase& one, std::size_t place, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, Shown& shown,
            const RunBeside& beside = {}) const;
@@ -124,7 +135,9 @@ class PlantResiduals : public InPlantUnknowns {
 
   const InPlantSetup* setup_;
   const PlantCases* cases_;
-  const LawUnknowns* law_;
+  const LawUnknowns* law_;   ///< null: `held_` is the damper
+  const DamperModel* held_;  ///< null: the law is
+  std::span<const StateInfo> law_states_;
   std::vector<PlantInputPlace> inputs_;
   std::vector<PlantSensorPlace> sensors_;
   std::vector<double> scale_;  ///< per sensor

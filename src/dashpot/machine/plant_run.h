@@ -142,10 +142,10 @@ class DrivenPlant {
   const std::vector<std::vector<double>>& carried() const { return carried_; }
 
  private:
-  static constexpr std::size_t kMostDampers = 4, kMostStatesOfDamper = 16, kMostCoordinates = 24;
+  static constexpr std::size_t kMostDampers = 4, kMostCoordinates = 24;
   /// Room for the states of a plant and its dampers, so that stepping allocates nothing.
   static constexpr std::size_t kMostStates =
-      2 * kMostCoordinates + kMostDampers * kMostStatesOfDamper;
+      2 * kMostCoordinates + kMostDampers * kMostDamperStates;
   using Forces = std::array<double, kMostDampers>;
 
   bool run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,

@@ -88,6 +88,19 @@ void PlantStep::end_without_force(const PlantInputSamples& inputs, std::size_t p
   }
 }
 
+void RunTangent::add(const StepTangent& step) {
+  states_ = step.states.size();
+  numbers_.push_back(step.force);
+  numbers_.push_back(step.answer);
+  numbers_.insert(numbers_.end(), step.states.begin(), step.states.end());
+}
+
+StepTangent RunTangent::at(std::size_t step) const {
+  const std::span<const double> own =
+      std::span(numbers_).subspan(step * (2 + states_), 2 + states_);
+  return {.force = own[0], .answer = own[1], .states = own.subspan(2)};
+}
+
 DamperStep::DamperStep(const DamperModel& damper, double length)
     : damper_(damper), law_(model_as<LawModel>(damper)), length_(length), half_(1) {
   if (law_ && !law_->law().step) law_ = nullptr;
@@ -132,7 +145,7 @@ double DamperStep::answer(const DamperMotion& motion, double force, std::span<co
 
 double DamperStep::end_force(const DamperMotion& motion, std::span<double> state) {
   if (followed_) {
-    const StepTangent& beside = (*followed_)[step_];
+    const StepTangent beside = followed_->at(step_);
     step_ += every_;
     return solve_beside(motion, beside, state);
   }
@@ -170,17 +183,19 @@ double DamperStep::keep_tangent(const DamperMotion& motion, double force,
                                 std::span<const double> before, std::span<double> state) {
   constexpr double kLittle = 1e-5;  // of the force
   const double above = kLittle * std::max(largest_, 1e-300);
-  States ends[2];
+  States ends[2], slopes;
   const double answers[] = {answer(motion, force, before, ends[0]),
                             answer(motion, force + above, before, ends[1])};
-  StepTangent tangent{.force = force, .answer = (answers[1] - answers[0]) / above, .states = {}};
+  StepTangent tangent{.force = force,
+                      .answer = (answers[1] - answers[0]) / above,
+                      .states = {slopes.data(), state.size()}};
   if (!(tangent.answer < 0.9)) tangent.answer = 0;
   tangent.force += (answers[0] - force) / (1 - tangent.answer);
   for (std::size_t i = 0; i < state.size(); ++i) {
-    tangent.states[i] = (ends[1][i] - ends[0][i]) / above;
-    state[i] = ends[0][i] + (tangent.force - force) * tangent.states[i];
+    slopes[i] = (ends[1][i] - ends[0][i]) / above;
+    state[i] = ends[0][i] + (tangent.force - force) * slopes[i];
   }
-  kept_->push_back(tangent);
+  kept_->add(tangent);
   return tangent.force;
 }
 

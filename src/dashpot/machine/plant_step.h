@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -56,14 +57,28 @@ struct DamperMotion {
   double force;           ///< at the start
 };
 
+/// The most states of a damper that a plant takes: those of three passive networks beside a law,
+/// and as many once more.
+constexpr std::size_t kMostDamperStates = 128;
+
 /// Where a run arrived at the end of a step, and what each newton that had been presumed there
 /// would have changed: of the damper's answer, and of its states.
 struct StepTangent {
   double force = 0, answer = 0;
-  std::array<double, 16> states = {};
+  std::span<const double> states = {};
 };
-/// Over all steps of a run, in each damper by damper.
-using RunTangent = std::vector<StepTangent>;
+
+/// The same over all steps of a run, in each damper by damper.
+class RunTangent {
+ public:
+  void add(const StepTangent& step);
+  StepTangent at(std::size_t step) const;
+  std::size_t size() const { return numbers_.size() / (2 + states_); }
+
+ private:
+  std::size_t states_ = 0;  ///< of a damper
+  std::vector<double> numbers_;
+};
 
 /// A damper's way over steps of one length.
 class DamperStep {
@@ -85,7 +100,7 @@ class DamperStep {
   double end_force(const DamperMotion& motion, std::span<double> state);
 
  private:
-  using States = std::array<double, 16>;
+  using States = std::array<double, kMostDamperStates>;
   double answer(const DamperMotion& motion, double force, std::span<const double> state,
                 States& end) const;
   void advance(const DamperInput& from, const DamperInput& to, std::span<double> state) const;

@@ -18,7 +18,8 @@ namespace dashpot {
 namespace {
 
 // The network's step: a share of the time between two turns, and short where the drive switches.
-constexpr double kStepsPerStroke = 25, kLongestStep = 0.01, kLongestSwitchingStep = 0.001;  // s
+constexpr double kStepsPerStroke = 25, kFinerSteps = 100, kLongestStep = 0.01,
+                 kLongestSwitchingStep = 0.001;        // s
 constexpr double kWindowTime = 1, kRunInShare = 0.25;  // s; of a window
 constexpr std::size_t kShortestWindow = 128, kLongestWindow = 400;
 constexpr std::size_t kUpdates = 1600,
@@ -34,7 +35,8 @@ constexpr double kDriveSpan = 2;  // of the standardised drive
 using Records = std::vector<const FreeRunRecord*>;
 
 /// s: fine enough for the quickest motion of these records and, where it varies, for their drive.
-double network_step(const Records& records, bool drive_varies) {
+double network_step(const Records& records, bool drive_varies,
+                    double steps_per_stroke = kStepsPerStroke) {
   double stroke = INFINITY, own = 0;
   for (const FreeRunRecord* record : records) {
     stroke = std::min(stroke, mean_stroke(record->inputs, record->time).duration);
@@ -42,7 +44,7 @@ double network_step(const Records& records, bool drive_varies) {
                             static_cast<double>(record->time.size() - 1));
   }
   const double longest = drive_varies ? kLongestSwitchingStep : kLongestStep;
-  return std::max(own, std::min(longest, stroke / kStepsPerStroke));
+  return std::max(own, std::min(longest, stroke / steps_per_stroke));
 }
 
 /// Samples of a window at that step.
@@ -91,7 +93,7 @@ std::vector<HeldBack> end_levels_in_turn(const std::vector<Record>& records,
 
 /// A network of the preset's size with the scales and ranges of the records.
 PassiveNetwork scaled_network(const PassiveNetworkPreset& preset, const Records& records,
-                              const DriveRange& drive) {
+                              const DriveRange& drive, double steps_per_stroke) {
   PassiveNetwork n;
   n.sizes = preset.sizes;
   n.lags = drive.varies;
@@ -130,7 +132,7 @@ PassiveNetwork scaled_network(const PassiveNetworkPreset& preset, const Records&
   n.drive_high = drive.high / n.drive_scale;
   if (reads_levels(drive)) n.drive_fade = kFadeShare * (n.drive_high - n.drive_low);
   n.force_scale = force_deviation(records);
-  n.model_step = network_step(records, drive.varies);
+  n.model_step = network_step(records, drive.varies, steps_per_stroke);
   return n;
 }
 
@@ -153,13 +155,13 @@ class PassiveNetworkFit {
  public:
   PassiveNetworkFit(const PassiveNetworkPreset& preset, const std::vector<Record>& training,
                     DriveUnit drive_unit, const IdentifyOptions& options,
-                    std::optional<double> decay)
+                    std::optional<double> decay, double steps_per_stroke = kStepsPerStroke)
       : preset_(designed(preset, options.network)), options_(options) {
     const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
     Records as_recorded;
     for (const FreeRunRecord& record : recorded) as_recorded.push_back(&record);
     const DriveRange drive = drive_range(training, drive_unit);
-    start_ = scaled_network(preset_, as_recorded, drive);
+    start_ = scaled_network(preset_, as_recorded, drive, steps_per_stroke);
     records_ = at_step(as_recorded, start_.model_step);
     for (const FreeRunRecord& record : records_) all_.push_back(&record);
     decay_ = decay ? *decay : best_weight_decay(held_back_parts(training, drive));
@@ -274,18 +276,34 @@ double passive_training_steps(const PassiveNetworkPreset& preset,
   return static_cast<double>(updates * window_samples(network_step(records, drive.varies)));
 }
 
-PassiveNetworkTraining train_passive_network(const PassiveNetworkPreset& preset,
-                                             const std::vector<Record>& training,
-                                             DriveUnit drive_unit, const IdentifyOptions& options,
-                                             std::optional<double> decay) {
-  const PassiveNetworkFit fit(preset, training, drive_unit, options, decay);
+namespace {
+
+FitReport report_of(const PassiveNetworkPreset& preset, const PassiveNetworkFit& fit) {
   const std::vector<PassiveNetworkFit::Member> members = fit.members();
   FitReport report = report_of_members(members);
   std::vector<PassiveNetwork> networks;
   for (const PassiveNetworkFit::Member& member : members) networks.push_back(member.network);
   report.model =
       std::make_shared<PassiveNetworkModel>(std::string(preset.name), std::move(networks));
-  return {std::move(report), fit.decay()};
+  return report;
+}
+
+}  // namespace
+
+PassiveNetworkTraining train_passive_network(const PassiveNetworkPreset& preset,
+                                             const std::vector<Record>& training,
+                                             DriveUnit drive_unit, const IdentifyOptions& options,
+                                             std::optional<double> decay) {
+  const PassiveNetworkFit fit(preset, training, drive_unit, options, decay);
+  return {report_of(preset, fit), fit.decay()};
+}
+
+FitReport fit_to_these_motions(const PassiveNetworkPreset& preset,
+                               const std::vector<Record>& training, DriveUnit drive_unit,
+                               IdentifyOptions options) {
+  if (!options.network.epochs) options.network.epochs = 2 * kUpdates;
+  return report_of(preset,
+                   PassiveNetworkFit(preset, training, drive_unit, options, 0.0, kFinerSteps));
 }
 
 FitReport fit_passive_network(const PassiveNetworkPreset& preset,

@@ -32,6 +32,11 @@ PassiveNetworkTraining train_passive_network(const PassiveNetworkPreset& preset,
                                              const std::vector<Record>& training,
                                              DriveUnit drive_unit, const IdentifyOptions& options,
                                              std::optional<double> decay = {});
+/// Where no other motions and levels of the drive are to come than those of these records: the step
+/// is finer, weights do not shrink, and all learn for twice as long.
+FitReport fit_to_these_motions(const PassiveNetworkPreset& preset,
+                               const std::vector<Record>& training, DriveUnit drive_unit,
+                               IdentifyOptions options);
 /// The design of a trial of that network: one member, and fewer updates.
 NetworkDesign trial_design(NetworkDesign design);
 
