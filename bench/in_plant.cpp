@@ -38,8 +38,10 @@ namespace {
 void print_parameters(const std::vector<FittedParameter>& parameters) {
   for (const FittedParameter& p : parameters)
     if (!p.fixed)
-      fmt::print("  {:<18} {:>12} {:<8} {} ... {}{}\n", p.name, format_number(p.value, 6), p.unit,
-                 format_number(p.low, 6), format_number(p.high, 6), p.at_bound ? "  (bound)" : "");
+      fmt::print("  {:<18} {:>12} {:<8} {}{}\n", p.name, format_number(p.value, 6), p.unit,
+                 std::isnan(p.low) ? "no interval"
+                                   : format_number(p.low, 6) + " ... " + format_number(p.high, 6),
+                 p.at_bound ? "  (bound)" : "");
 }
 
 void print_report(const InPlantReport& report) {
