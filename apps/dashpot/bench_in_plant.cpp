@@ -225,7 +225,8 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   std::string levels;
   for (const double level : options.levels)
     levels += (levels.empty() ? "" : ", ") + format_number(level);
-  console.print(counted(rides.size(), "ride") + " of the " + std::string(setup.model->name) + ", " +
+  console.print(counted(rides.size(), "ride") + " of the " +
+                (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
                 format_number(options.duration) + " s each, at " + levels + ' ' +
                 to_string(damper.model.drive_unit()) +
                 (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +

@@ -309,6 +309,8 @@ TEST_CASE("a plant of matrices: what is wrong is named with what would be right"
   CHECK(contains(wrong("[body, wheel]", "[body, body]"), "'body' stands twice"));
   CHECK(contains(wrong("ground: [{at: wheel, stiffness: kt, damping: 300}]\n", ""),
                  "has no tyre on the ground"));
+  CHECK(contains(wrong("stiffness: kt, damping", "stiffness: -5 N/m, damping"),
+                 "rig.yaml, ground: stiffness is below 0"));
   CHECK(contains(wrong("ground: [", "shaken: [body]\nground: ["), "both a ground that moves"));
   CHECK(contains(message_of([] { read_in_plant_setup("matrices,mass=2"); }),
                  "a plant of matrices does not fit on a line; a file"));

@@ -153,9 +153,10 @@ TEST_CASE("a road that follows: what is wrong is named with what would be right"
   };
   CHECK(contains(wrong("follows: front_tyre_road", "follows: road"),
                  "follows 'road', which is no channel of a road"));
-  CHECK(contains(wrong(", delay: 0.14 s", ""),
-                 "says not how much later it meets the road; delay: 0.14 s, or wheelbase: 2.8 m"));
-  CHECK(contains(wrong("delay: 0.14 s", "delay: 0.14 s, speed: 20 m/s"), "says not how much"));
+  CHECK(contains(
+      wrong(", delay: 0.14 s", ""),
+      "does not say how much later it meets the road; delay: 0.14 s, or wheelbase: 2.8 m"));
+  CHECK(contains(wrong("delay: 0.14 s", "delay: 0.14 s, speed: 20 m/s"), "does not say how much"));
   CHECK(contains(wrong("delay: 0.14 s", "delay: unknown"),
                  "is unknown, and nothing says where it is expected; {about: ...}"));
   CHECK(contains(wrong("delay: 0.14 s", "delay: -1 s"), "follows by no time"));

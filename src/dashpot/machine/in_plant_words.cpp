@@ -276,6 +276,19 @@ RoadPrior read_road(ObjectReader& reader, const std::string& kind, const Value& 
   return road;
 }
 
+/// A number that is known, or `about`: then it is to be found.
+double read_about(const Value& number, const char* unit, bool& is_to_be_found) {
+  if (number.kind() == Value::Kind::String && number.as_string() == "unknown")
+    throw Error(number.where(), "is unknown, and nothing says where it is expected",
+                "{about: ...}, within a tenth of it");
+  if (number.kind() != Value::Kind::Object) return read_quantity(number, unit);
+  ObjectReader about(number, "what is not quite known");
+  const double expected = read_quantity(about.required("about"), unit);
+  about.finish();
+  is_to_be_found = true;
+  return expected;
+}
+
 /// A road that another axle met before: how much later, as a time or by wheelbase and speed.
 void read_follower(ObjectReader& reader, PlantInputChannel& input, const std::string& at,
                    const Value& value) {
@@ -283,26 +296,18 @@ void read_follower(ObjectReader& reader, PlantInputChannel& input, const std::st
     throw Error(value.where(), "has a channel and follows another one", "one of both");
   input.follows = reader.string("follows");
   input.channel = input.follows + " at " + at;
+
+  // Either way says it alone.
   const Value* delay = reader.optional("delay");
   const Value* wheelbase = reader.optional("wheelbase");
   const Value* speed = reader.optional("speed");
-  const std::string right = "delay: 0.14 s, or wheelbase: 2.8 m with speed: 20 m/s";
-  const auto read_about = [&](const Value& number, const char* unit) {
-    if (number.kind() == Value::Kind::String && number.as_string() == "unknown")
-      throw Error(number.where(), "is unknown, and nothing says where it is expected",
-                  "{about: ...}, within a tenth of it");
-    if (number.kind() != Value::Kind::Object) return read_quantity(number, unit);
-    ObjectReader about(number, "what is not quite known");
-    const double expected = read_quantity(about.required("about"), unit);
-    about.finish();
-    input.finds_later = true;
-    return expected;
-  };
-  const bool by_speed = wheelbase && speed;
-  if ((delay != nullptr) == by_speed || (delay && (wheelbase || speed)))
-    throw Error(value.where(), "says not how much later it meets the road", right);
-  input.later =
-      delay ? read_about(*delay, "s") : read_quantity(*wheelbase, "m") / read_about(*speed, "m/s");
+  if (delay && !wheelbase && !speed)
+    input.later = read_about(*delay, "s", input.finds_later);
+  else if (!delay && wheelbase && speed)
+    input.later = read_quantity(*wheelbase, "m") / read_about(*speed, "m/s", input.finds_later);
+  else
+    throw Error(value.where(), "does not say how much later it meets the road",
+                "delay: 0.14 s, or wheelbase: 2.8 m with speed: 20 m/s");
 }
 
 PlantInputChannel read_input(const Value& value, const Plant& plant) {
@@ -310,14 +315,14 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
   PlantInputChannel input{.channel = reader.string("channel", ""), .place = {}};
   const std::string kind = reader.string("kind"), at = reader.string("at", "");
   const PlantInput* known = find_input(kind);
-  if (reader.optional("follows")) {
+
+  // What it does: as another road does, as a road of a class, or as its channel shows.
+  if (reader.optional("follows"))
     read_follower(reader, input, at, value);
-    if (known) input.place = input_place(*known, plant, at, value.where());
-    reader.finish();
-    return input;
-  }
-  if (input.channel.empty()) input.road = read_road(reader, kind, value);
-  if (known && !input.road) input.noise = read_deviation(reader, "noise", unit_of(*known));
+  else if (input.channel.empty())
+    input.road = read_road(reader, kind, value);
+  else if (known)
+    input.noise = read_deviation(reader, "noise", unit_of(*known));
   reader.finish();
   if (!known)
     throw Error(value.where(), "unknown kind of input '" + kind + "'",

@@ -475,25 +475,29 @@ bool is_of_a_structure(MatrixKind kind, std::vector<double> matrix,
 /// Throws Error where a matrix, with these numbers of the parameters, is none of a structure.
 void require_structure(const PlantModel& model, MatrixKind kind, std::span<const double> numbers,
                        const std::string& at, const std::string& where) {
+  const auto matrix_of = [kind](const auto& plant) {
+    return kind == kMassMatrix      ? plant.mass
+           : kind == kDampingMatrix ? plant.damping
+                                    : plant.stiffness;
+  };
   const Plant plant = model.make(numbers);
-  const LinearPlant whole = linear_plant(plant);
-  const std::vector<double>& all = kind == kMassMatrix      ? whole.mass
-                                   : kind == kDampingMatrix ? whole.damping
-                                                            : whole.stiffness;
-  const std::vector<double>& free = kind == kMassMatrix      ? plant.mass
-                                    : kind == kDampingMatrix ? plant.damping
-                                                             : plant.stiffness;
+  const std::vector<double> whole = matrix_of(linear_plant(plant));
   const MatrixWords& words = kMatrices[kind];
   const std::string name = where + ", " + std::string(words.name);
-  if (!is_of_a_structure(kind, all, all))
+
+  // As it stands in the file.
+  if (!is_of_a_structure(kind, whole, whole))
     throw Error(name, "is not " + std::string(words.what) + at,
                 kind == kMassMatrix ? "every motion has an energy above 0"
                                     : "no motion gives energy: a spring between two coordinates "
                                       "adds to both diagonals what it takes beside them");
+
+  // Without what stands on the ground, which has no mass.
+  if (kind == kMassMatrix) return;
   for (const Tyre& tyre : plant.tyres)
     if ((kind == kDampingMatrix ? tyre.damping : tyre.stiffness) < 0)
       throw Error(where + ", ground", std::string(words.name) + " is below 0" + at, "0 or more");
-  if (!is_of_a_structure(kind, free, all))
+  if (!is_of_a_structure(kind, matrix_of(plant), whole))
     throw Error(name,
                 "is not " + std::string(words.what) + " without what stands on the ground" + at,
                 "the matrices with the ground's springs and dashpots in them, as where it rests");

@@ -11,8 +11,7 @@ namespace {
 
 constexpr int kFinest = 16;  // a stretch in 65 536 steps at most
 constexpr int kIterations = 12;
-// Tolerances by which the last iteration may move the end: the next would move it by a small part.
-constexpr double kConverged = 0.25;
+constexpr double kConverged = 0.02;  // tolerances by which the last iteration may move the end
 /// Halving a step quarters the error of a damper's own steps, the least that a method here gains.
 constexpr double kGain = 3;
 
