@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/machine/between_samples.h"
 #include "dashpot/numerics/distributions.h"
@@ -33,19 +34,20 @@ NoiseSources first_noise(const InPlantSetup& setup, const PlantCases& cases,
 }
 
 /// Each recording in free run about x, and what it shows beyond its sensors.
-std::vector<InPlantTrace> traces_at(const PlantResiduals& residuals, std::span<const double> x) {
+std::vector<InPlantTrace> traces_at(const PlantResiduals& residuals, std::span<const double> x,
+                                    int threads) {
   std::vector<SensorFigures> figures;
   std::vector<InPlantTrace> traces;
-  residuals.describe(x, figures, traces);
+  residuals.describe(x, figures, traces, threads);
   return traces;
 }
 
 /// The noise of each recording about these traces; empty where a motion tells no spring from a
 /// dashpot.
 std::vector<RecordingNoise> noise_about(const InPlantSetup& setup, const PlantCases& cases,
-                                        const std::vector<InPlantTrace>& traces) {
-  std::vector<RecordingNoise> all;
-  for (std::size_t c = 0; c < traces.size(); ++c) {
+                                        const std::vector<InPlantTrace>& traces, int threads) {
+  std::vector<std::optional<RecordingNoise>> found(traces.size());
+  parallel_for(traces.size(), threads, [&](std::size_t c) {
     const InPlantTrace& trace = traces[c];
     const std::size_t first = cases.all[c].first, count = trace.training - first;
 
@@ -58,15 +60,20 @@ std::vector<RecordingNoise> noise_about(const InPlantSetup& setup, const PlantCa
         force.push_back(damper.force[k]);
       }
     const auto stand_in = stand_in_of(motion, force);
-    if (!stand_in) return {};
-    all.emplace_back(setup, *stand_in, trace.sample_time, count);
+    if (!stand_in) return;
+    found[c].emplace(setup, *stand_in, trace.sample_time, count);
 
     // What is shown beyond the sensors.
     std::vector<std::vector<double>> beyond(setup.sensors.size(), std::vector<double>(count));
     for (std::size_t s = 0; s < beyond.size(); ++s)
       for (std::size_t k = 0; k < count; ++k)
         beyond[s][k] = trace.modelled[s][first + k] - trace.measured[s][first + k];
-    all.back().set_beyond(beyond);
+    found[c]->set_beyond(beyond);
+  });
+  std::vector<RecordingNoise> all;
+  for (std::optional<RecordingNoise>& one : found) {
+    if (!one) return {};
+    all.push_back(std::move(*one));
   }
   return all;
 }
@@ -74,9 +81,9 @@ std::vector<RecordingNoise> noise_about(const InPlantSetup& setup, const PlantCa
 /// The recordings with inputs from which the likely noise of their sensors is taken.
 PlantCases without_noise(const PlantCases& as_measured, const InPlantSetup& setup,
                          const std::vector<PlantRecording>& recordings,
-                         const std::vector<RecordingNoise>& noise) {
+                         const std::vector<RecordingNoise>& noise, int threads) {
   PlantCases cases = as_measured;
-  for (std::size_t c = 0; c < cases.all.size(); ++c) {
+  parallel_for(cases.all.size(), threads, [&](std::size_t c) {
     PlantCase& one = cases.all[c];
     const std::vector<std::vector<double>> likely = noise[c].likely_inputs();
     for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
@@ -86,7 +93,7 @@ PlantCases without_noise(const PlantCases& as_measured, const InPlantSetup& setu
       one.driving.value[u] = std::move(finer.value);
       one.driving.rate[u] = std::move(finer.rate);
     }
-  }
+  });
   return cases;
 }
 
@@ -172,7 +179,7 @@ double own_share(const std::vector<double>& column, const EndOfSearch& end,
 /// What pieces of time tell, in which what was left is known: `length` samples each or little more
 /// or less, two of a recording at least.
 std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<RecordingNoise>& noise,
-                                   double length) {
+                                   double length, int threads) {
   const std::size_t n = end.columns.size();
   std::vector<BlockOfData> pieces;
   for (std::size_t c = 0, at = 0; c < noise.size(); ++c) {
@@ -182,15 +189,18 @@ std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<Rec
       return noise[c].samples_of(std::span(rows).subspan(at, count));
     };
     std::vector<std::vector<std::vector<double>>> columns(n);
-    for (std::size_t k = 0; k < n; ++k)
+    parallel_for(n, threads, [&](std::size_t k) {
       if (!end.columns[k].empty()) columns[k] = samples_of(end.columns[k]);
+    });
     const std::vector<std::vector<double>> left = samples_of(end.residuals);
     at += count;
 
     // Their products in each piece.
     const auto samples = static_cast<double>(noise[c].samples());
     const auto own = static_cast<std::size_t>(std::max(2.0, std::round(samples / length)));
-    for (std::size_t piece = 0; piece < own; ++piece) {
+    const std::size_t before = pieces.size();
+    pieces.resize(before + own);
+    parallel_for(own, threads, [&](std::size_t piece) {
       const std::size_t first = piece * noise[c].samples() / own,
                         behind = (piece + 1) * noise[c].samples() / own;
       const auto along = [&](const auto& a, const auto& b) {
@@ -205,8 +215,8 @@ std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<Rec
         for (std::size_t m = 0; m <= k; ++m)
           one.information[k * n + m] = one.information[m * n + k] = along(columns[k], columns[m]);
       }
-      pieces.push_back(std::move(one));
-    }
+      pieces[before + piece] = std::move(one);
+    });
   }
   return pieces;
 }
@@ -214,7 +224,8 @@ std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<Rec
 /// How certain the unknowns are at the end of a search beside the noise, and whether the damper
 /// shows more than its law has.
 void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& solved,
-                 const PlantCases& cases, const PlantResiduals& residuals, NoisyFit& fit) {
+                 const PlantCases& cases, const PlantResiduals& residuals, int threads,
+                 NoisyFit& fit) {
   constexpr double kPieces = 24, kOwnShare = 0.01, kChance = 0.01;
   const std::size_t n = solved.x.size();
   double samples = 0;
@@ -224,10 +235,10 @@ void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& s
   const std::vector<double> ones(solved.part_matrices.size(), 1.0);
   fit.spread = covariance(solved.part_matrices, ones, n);
   EndOfSearch end = end_of(problem, solved);
-  fit.alone.emplace(pieces_of(end, fit.noise, samples / kPieces), n);
+  fit.alone.emplace(pieces_of(end, fit.noise, samples / kPieces, threads), n);
 
   // Beside what the law cannot make.
-  const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x);
+  const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x, threads);
   std::vector<const MoreForce*> asked;
   std::vector<std::vector<double>> columns;
   for (const MoreForce& more : kMore) {
@@ -242,7 +253,7 @@ void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& s
   fit.with_more.reset();
   if (asked.empty()) return;
   std::ranges::move(columns, std::back_inserter(end.columns));
-  Jackknife with_more(pieces_of(end, fit.noise, samples / kPieces), n + asked.size());
+  Jackknife with_more(pieces_of(end, fit.noise, samples / kPieces, threads), n + asked.size());
   const double one[] = {1};
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const double value = with_more.step()[n + k];
@@ -288,15 +299,16 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
 
     // The noise about the unknowns.
     cases = fit.cases;
-    const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x);
-    std::vector<RecordingNoise> noise = noise_about(residuals.setup_at(solved.x), cases, traces);
+    const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x, options.threads);
+    std::vector<RecordingNoise> noise =
+        noise_about(residuals.setup_at(solved.x), cases, traces, options.threads);
     if (noise.empty()) break;
     fit.found = find_noise(noise, setup, fit.found.sources, options.threads);
     fit.noise = std::move(noise);
 
     // The unknowns beside it.
-    cases = without_noise(fit.cases, setup, recordings, fit.noise);
-    keep_residuals(traces, traces_at(residuals, solved.x), cases);
+    cases = without_noise(fit.cases, setup, recordings, fit.noise, options.threads);
+    keep_residuals(traces, traces_at(residuals, solved.x, options.threads), cases);
     residuals.look_at_lines(&fit.noise);
     const LeastSquaresProblem problem = residuals.problem(0, options.threads);
     LeastSquaresReport next = solve(problem, solved.x, solver);
@@ -309,7 +321,7 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
     if (!has_enough_steps && way < kNear) {
       PlantCases without = std::move(cases);
       cases = fit.cases;
-      report.step_error = residuals.step_error(solved.x, recordings);
+      report.step_error = residuals.step_error(solved.x, recordings, options.threads);
       std::size_t steps = cases.steps;
       for (double error = report.step_error; error > kStepShare && steps < kMostSteps; error /= 4)
         steps *= 2;
@@ -320,7 +332,8 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
       }
       cases = std::move(without);
     }
-    if (has_enough_steps || turn + 1 == kTurns) tell_spread(problem, solved, cases, residuals, fit);
+    if (has_enough_steps || turn + 1 == kTurns)
+      tell_spread(problem, solved, cases, residuals, options.threads, fit);
     stays = has_enough_steps && way < kStays;
   }
   report.warnings.insert(report.warnings.end(), fit.more.begin(), fit.more.end());

@@ -133,7 +133,7 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
       const PlantResiduals residuals(setup, cases, one.unknowns, start.plant, start.scale);
 
       // A delay waits for the fit of all.
-      LeastSquaresProblem trial = residuals.problem(horizon, 1);
+      LeastSquaresProblem trial = residuals.problem(horizon, options.threads);
       for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d)
         trial.lower[d] = trial.upper[d] = one.x[d];
       LeastSquaresOptions solver = solver_options(options, kIterations, kTolerance);
@@ -279,7 +279,8 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
   const bool goes_on = has_noisy_inputs(setup);
   if (cases.method == PlantMethod::StraightForce) residuals.reweigh(x);
   while (!goes_on && cases.method == PlantMethod::StraightForce && options.steps == 0 &&
-         cases.steps < kMostSteps && residuals.step_error(x, recordings) > kStepShare)
+         cases.steps < kMostSteps &&
+         residuals.step_error(x, recordings, options.threads) > kStepShare)
     cases = make_cases(setup, recordings, 2 * cases.steps, cases.method);
 
   for (;;) {
@@ -288,7 +289,7 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
     const bool is_finite = !solved.x.empty() && std::isfinite(solved.cost);
     if (is_finite) x = solved.x;
     if (is_finite && goes_on && cases.method == PlantMethod::StraightForce) return solved;
-    report.step_error = is_finite ? residuals.step_error(x, recordings) : INFINITY;
+    report.step_error = is_finite ? residuals.step_error(x, recordings, options.threads) : INFINITY;
     const bool was_explicit = cases.method == PlantMethod::RungeKutta;
     const bool is_lost = was_explicit && (!is_finite || residuals.diverges(x));
     if (report.step_error <= kStepShare && !is_lost) return solved;
@@ -297,7 +298,8 @@ LeastSquaresReport solve_in_enough_steps(const InPlantSetup& setup,
     if (was_explicit) {
       PlantCases before = std::move(cases);
       cases = make_cases(setup, recordings, before.steps, PlantMethod::StraightForce);
-      if (is_lost || residuals.step_error(x, recordings) < report.step_error) continue;
+      if (is_lost || residuals.step_error(x, recordings, options.threads) < report.step_error)
+        continue;
       cases = std::move(before);
     }
     if (!is_finite || options.steps > 0 || cases.steps >= kMostSteps) return solved;
@@ -356,7 +358,8 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
 
   // What can be told is said before the fit.
-  const LeastSquaresReport at = describe_at(residuals.problem(0, options.threads), x);
+  const LeastSquaresReport at =
+      describe_at(residuals.problem(0, options.threads), x, {.threads = options.threads});
   report.knowable = knowable_of(residuals, at.part_matrices, x.size());
   residuals.leave_out_forgotten(at);
 
@@ -408,7 +411,8 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   // What would help.
   if (!options.grade.empty()) {
     if (!beside.noise.empty())
-      solved = describe_at(residuals.problem(0, options.threads), solved.x);
+      solved = describe_at(residuals.problem(0, options.threads), solved.x,
+                           {.threads = options.threads});
     std::vector<ParameterProfile> profiles = std::move(report.advice.profiles);
     report.advice = advise({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
                            find_sensor_grade(options.grade, "grade"), options);
@@ -417,7 +421,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
 
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));
-  residuals.describe(solved.x, report.sensors, report.traces);
+  residuals.describe(solved.x, report.sensors, report.traces, options.threads);
   for (const SensorFigures& figure : report.sensors)
     if (std::isinf(figure.held_back))
       report.warnings.push_back(figure.recording + ": the plant diverges on the time held back (" +

@@ -157,9 +157,9 @@ Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round&
 
   // How well it goes, and what was found.
   InPlantReport& report = now.report;
-  residuals.describe(solved.x, report.sensors, report.traces);
+  residuals.describe(solved.x, report.sensors, report.traces, options.threads);
   now.left = left_over(report.sensors, setup);
-  report.step_error = residuals.step_error(solved.x, recordings);
+  report.step_error = residuals.step_error(solved.x, recordings, options.threads);
   report.iterations = solved.iterations;
   report.model = damper;
   now.known = residuals.setup_at(solved.x);

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <deque>
+#include <latch>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -32,6 +34,12 @@ bool is_constant(std::span<const double> samples) {
   const auto [low, high] = std::ranges::minmax(samples);
   return high - low <= 1e-12 * std::max(std::abs(low), std::abs(high));
 }
+
+/// Opens a latch at the end of a scope, however that is left.
+struct OpensLatch {
+  std::latch& latch;
+  ~OpensLatch() { latch.count_down(); }
+};
 
 }  // namespace
 
@@ -346,57 +354,81 @@ bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, 
 }
 
 bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples, std::span<double> r,
-                              int threads, std::vector<RunTangent>* keep) const {
+                              int threads) const {
   std::atomic<bool> complete = true;
   parallel_for(cases_->all.size(), threads, [&](std::size_t c) {
-    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)),
-                      {.keep = keep ? &(*keep)[c] : nullptr}))
-      complete = false;
+    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)), {})) complete = false;
   });
   return complete;
 }
 
-/// One column by a forward difference. A state at the beginning acts on its recording alone.
-bool PlantResiduals::difference(std::span<const double> x, std::size_t samples,
-                                std::span<const double> r, const std::vector<RunTangent>& follow,
-                                std::size_t k, std::span<double> column) const {
+/// The step of a difference: up where the bounds leave room, or the other way; 0 where that would
+/// leave them.
+double PlantResiduals::difference_step(std::span<const double> x, std::size_t k,
+                                       bool other_way) const {
   constexpr double kStep = 1e-6;
-  const bool of_one = k >= first_state_ && k < first_delay_;
-  const std::size_t own = of_one ? (k - first_state_) / states() : 0;
   const double length = kStep * std::max(1.0, std::abs(x[k]));
-  std::vector<double> moved(x.begin(), x.end());
-
-  // Up where the bounds leave room, and the other way where the plant diverges there.
   const bool upward = x[k] + length <= upper_[k];
-  for (const double step : {upward ? length : -length, upward ? -length : length}) {
-    moved[k] = x[k] + step;
-    if (moved[k] < lower_[k] || moved[k] > upper_[k]) continue;
-    bool finite = true;
-    for (std::size_t c = 0; c < cases_->all.size() && finite; ++c) {
-      const std::size_t first = part_of(c, samples), end = part_of(c + 1, samples);
-      if (of_one && c != own) {
-        std::fill(column.begin() + static_cast<std::ptrdiff_t>(first),
-                  column.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
-        continue;
-      }
-      finite = evaluate_one(moved, c, samples, column.subspan(first),
-                            {.follow = follow.empty() ? nullptr : &follow[c]});
-      for (std::size_t i = first; i < end; ++i) column[i] = (column[i] - r[i]) / step;
-    }
-    if (finite) return true;
+  const double step = upward != other_way ? length : -length, moved = x[k] + step;
+  return moved < lower_[k] || moved > upper_[k] ? 0 : step;
+}
+
+/// A recording's rows of one column, where r holds those of the residuals at x. A state at the
+/// beginning acts on its recording alone.
+bool PlantResiduals::difference(std::span<const double> x, std::size_t place, std::size_t samples,
+                                std::span<const double> r, const RunBeside& beside, std::size_t k,
+                                double step, std::span<double> column) const {
+  const bool of_one = k >= first_state_ && k < first_delay_;
+  if (of_one && place != (k - first_state_) / states()) {
+    std::ranges::fill(column, 0.0);
+    return true;
   }
-  return false;
+  std::vector<double> moved(x.begin(), x.end());
+  moved[k] += step;
+  if (!evaluate_one(moved, place, samples, column, beside)) return false;
+  for (std::size_t i = 0; i < r.size(); ++i) column[i] = (column[i] - r[i]) / step;
+  return true;
 }
 
 bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                               std::span<double* const> columns, int threads) const {
+  const std::size_t recordings = cases_->all.size(), n = x.size();
   const bool is_straight = cases_->method == PlantMethod::StraightForce;
-  std::vector<RunTangent> tangents(is_straight ? cases_->all.size() : 0);
-  if (!evaluate(x, samples, r, threads, is_straight ? &tangents : nullptr)) return false;
+  std::vector<RunTangent> tangents(is_straight ? recordings : 0);
+  const auto rows_of = [&](std::size_t c, std::span<double> all) {
+    return all.subspan(part_of(c, samples), residuals_of(c, samples));
+  };
+  const auto differ = [&](std::size_t c, std::size_t k, double step) {
+    const RunBeside beside{.follow = is_straight ? &tangents[c] : nullptr};
+    return step != 0 && difference(x, c, samples, rows_of(c, r), beside, k, step,
+                                   rows_of(c, {columns[k], r.size()}));
+  };
+
+  // The recordings at x, and then column by column: a thread that finds no recording left goes on
+  // with the columns of one that has been run. Tasks begin in their order, so that what waits for a
+  // recording waits for one that is running.
+  std::deque<std::latch> passed;
+  for (std::size_t c = 0; c < recordings; ++c) passed.emplace_back(1);
+  std::vector<std::atomic<bool>> is_finite(recordings), is_lost(n);
+  parallel_for(recordings * (1 + n), threads, [&](std::size_t task) {
+    if (task < recordings) {
+      const OpensLatch at_the_end{passed[task]};
+      is_finite[task] = evaluate_one(x, task, samples, rows_of(task, r),
+                                     {.keep = is_straight ? &tangents[task] : nullptr});
+      return;
+    }
+    const std::size_t c = (task - recordings) / n, k = (task - recordings) % n;
+    if (!columns[k]) return;
+    passed[c].wait();
+    if (is_finite[c] && !differ(c, k, difference_step(x, k, false))) is_lost[k] = true;
+  });
+  if (!std::ranges::all_of(is_finite, [](const auto& one) { return one.load(); })) return false;
+
+  // The other way where the plant diverges on the first one, in any recording.
   std::atomic<bool> complete = true;
-  parallel_for(x.size(), threads, [&](std::size_t k) {
-    if (columns[k] && !difference(x, samples, r, tangents, k, {columns[k], r.size()}))
-      complete = false;
+  parallel_for(n, threads, [&](std::size_t k) {
+    for (std::size_t c = 0; c < recordings && is_lost[k]; ++c)
+      if (!differ(c, k, difference_step(x, k, true))) complete = false;
   });
   return complete;
 }
@@ -550,17 +582,20 @@ PlantResiduals::Shown PlantResiduals::other_sensors(
 }
 
 double PlantResiduals::step_error(std::span<const double> x,
-                                  const std::vector<PlantRecording>& recordings) const {
+                                  const std::vector<PlantRecording>& recordings,
+                                  int threads) const {
   const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps, cases_->method);
   const DrivenPlant plant = equations(x);
   const std::shared_ptr<const DamperModel> damper = model(x);
-  double worst = 0;
-  for (std::size_t c = 0; c < finer.all.size(); ++c) {
+  std::vector<double> worst(finer.all.size(), 0.0);
+  parallel_for(finer.all.size(), threads, [&](std::size_t c) {
     const PlantCase& one = cases_->all[c];
     Shown coarse, fine;
     if (!run(x, plant, *damper, one, c, one.training, sensors_, coarse) ||
-        !run(x, plant, *damper, finer.all[c], c, one.training, sensors_, fine))
-      return kUnbounded;
+        !run(x, plant, *damper, finer.all[c], c, one.training, sensors_, fine)) {
+      worst[c] = kUnbounded;
+      return;
+    }
 
     // The change against the error that is left, both without their means.
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
@@ -571,10 +606,10 @@ double PlantResiduals::step_error(std::span<const double> x,
       }
       const double left = rms_about(error, mean_of(error));
       const double floor = 1e-9 * rms_about(one.measured[s], mean_of(one.measured[s]));
-      worst = std::max(worst, rms_about(change, mean_of(change)) / std::max(left, floor));
+      worst[c] = std::max(worst[c], rms_about(change, mean_of(change)) / std::max(left, floor));
     }
-  }
-  return worst;
+  });
+  return std::ranges::max(worst);
 }
 
 bool PlantResiduals::diverges(std::span<const double> x) const {
@@ -589,7 +624,7 @@ bool PlantResiduals::diverges(std::span<const double> x) const {
 }
 
 void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigures>& figures,
-                              std::vector<InPlantTrace>& traces) const {
+                              std::vector<InPlantTrace>& traces, int threads) const {
   // Beside the sensors, the dampers' own motion and force.
   const DrivenPlant plant = equations(x);
   const Plant shown_plant = make_plant(*setup_->model, setup_->known);
@@ -600,7 +635,9 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
       places.push_back({own, 0, d});
 
   const std::shared_ptr<const DamperModel> damper = model(x);
-  for (std::size_t c = 0; c < cases_->all.size(); ++c) {
+  figures.assign(cases_->all.size() * sensors_.size(), {});
+  traces.assign(cases_->all.size(), {});
+  parallel_for(cases_->all.size(), threads, [&](std::size_t c) {
     const PlantCase& one = cases_->all[c];
     const std::size_t count = one.driving.samples, stride = one.driving.stride();
     InPlantTrace trace{.recording = one.name,
@@ -627,7 +664,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
         figure.held_back =
             finite ? rms_about(all.subspan(one.training), figure.offset) : kUnbounded;
       for (double& value : shown[s]) value += figure.offset;
-      figures.push_back(figure);
+      figures[c * sensors_.size() + s] = figure;
     }
 
     // The dampers at each sample.
@@ -640,8 +677,8 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
     for (std::size_t k = 0; k < count; ++k)
       trace.current.push_back(one.driving.current[stride * k]);
     trace.modelled.assign(shown.begin(), shown.begin() + last);
-    traces.push_back(std::move(trace));
-  }
+    traces[c] = std::move(trace);
+  });
 }
 
 }  // namespace dashpot

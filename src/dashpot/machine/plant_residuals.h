@@ -97,12 +97,13 @@ class PlantResiduals : public InPlantUnknowns {
   double scale_of(std::size_t sensor) const { return scale_[sensor]; }
 
   /// What half the step changes at the sensors, rms over rms error; the worst sensor.
-  double step_error(std::span<const double> x, const std::vector<PlantRecording>& recordings) const;
+  double step_error(std::span<const double> x, const std::vector<PlantRecording>& recordings,
+                    int threads) const;
   /// Whether the plant diverges in a recording, with the time that is held back.
   bool diverges(std::span<const double> x) const;
   /// Figures and samples of every sensor over whole recordings, in free run.
   void describe(std::span<const double> x, std::vector<SensorFigures>& figures,
-                std::vector<InPlantTrace>& traces) const;
+                std::vector<InPlantTrace>& traces, int threads) const;
 
  private:
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns* law,
@@ -118,14 +119,15 @@ class PlantResiduals : public InPlantUnknowns {
            std::span<const PlantSensorPlace> sensors, Shown& shown,
            const RunBeside& beside = {}) const;
   std::size_t end_of(const PlantCase& one, std::size_t samples) const;
-  bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r, int threads,
-                std::vector<RunTangent>* keep = nullptr) const;
+  bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r,
+                int threads) const;
   bool evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
                     std::span<double> r, const RunBeside& beside) const;
   bool jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                 std::span<double* const> columns, int threads) const;
-  bool difference(std::span<const double> x, std::size_t samples, std::span<const double> r,
-                  const std::vector<RunTangent>& follow, std::size_t k,
+  double difference_step(std::span<const double> x, std::size_t k, bool other_way) const;
+  bool difference(std::span<const double> x, std::size_t place, std::size_t samples,
+                  std::span<const double> r, const RunBeside& beside, std::size_t k, double step,
                   std::span<double> column) const;
   std::size_t residuals_of(std::size_t place, std::size_t samples) const;
   std::size_t part_of(std::size_t place, std::size_t samples) const;

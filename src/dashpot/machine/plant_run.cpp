@@ -69,14 +69,16 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> in
   damping_ = solve_columns(linear.mass, linear.damping, size_);
   stiffness_ = solve_columns(linear.mass, linear.stiffness, size_);
   for (const Strut& strut : plant.struts)
-    dampers_.push_back({strut.row, solve(linear.mass, strut.row), {}});
+    dampers_.push_back({strut.row, solve(linear.mass, strut.row), {}, false});
 
   // What each input pushes: a coordinate, the tyres, or all that moves with the ground.
   for (const PlantInputPlace& input : inputs) {
     std::vector<double> value(size_), rate(size_), carried(size_);
-    for (std::size_t d = 0; d < dampers_.size(); ++d)
-      dampers_[d].on_ground.push_back(
-          input.kind == PlantInput::Ground && plant.struts[d].track ? 1 : 0);
+    for (std::size_t d = 0; d < dampers_.size(); ++d) {
+      const bool stands = input.kind == PlantInput::Ground && plant.struts[d].track;
+      dampers_[d].on_ground.push_back(stands ? 1 : 0);
+      dampers_[d].stands_on_ground |= stands;
+    }
     if (input.kind == PlantInput::Force) value[input.coordinate] = 1;
     if (input.kind == PlantInput::Ground) {
       if (!input.tyre && has_several_roads(plant))
@@ -126,7 +128,7 @@ std::vector<double> DrivenPlant::at_rest(const DamperModel& damper, double drive
 DamperInput DrivenPlant::damper_input(const DamperPlace& place, const PlantDriving& driving,
                                       std::size_t point, const double* state) const {
   DamperInput at{along(place.row, state), along(place.row, state + size_), driving.current[point]};
-  for (std::size_t u = 0; u < place.on_ground.size(); ++u) {
+  for (std::size_t u = 0; place.stands_on_ground && u < place.on_ground.size(); ++u) {
     at.displacement -= place.on_ground[u] * driving.value[u][point];
     at.velocity -= place.on_ground[u] * driving.rate[u][point];
   }

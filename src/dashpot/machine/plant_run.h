@@ -99,6 +99,7 @@ struct DamperPlace {
   std::vector<double> row;        ///< n: its deflection
   std::vector<double> by_force;   ///< n: of its force, by the inverse of the mass
   std::vector<double> on_ground;  ///< per input: what it takes from the deflection
+  bool stands_on_ground = false;  ///< some input does
 };
 
 /// The plant as numbers: q'' = forcing - C q' - K q - sum of row F, all by the inverse of the mass.

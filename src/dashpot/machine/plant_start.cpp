@@ -97,18 +97,19 @@ LawUnknowns spring_and_dashpot(const DataScale& scale, bool spring) {
 
 /// Twice the steps until half a step changes no sensor by more than a thousandth of what it shows.
 void choose_steps(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                  PlantCases& cases, const PlantResiduals& residuals,
-                  const std::vector<double>& x) {
+                  PlantCases& cases, const PlantResiduals& residuals, const std::vector<double>& x,
+                  int threads) {
   constexpr double kSmall = 1e-3;
   constexpr std::size_t kMost = 8;
   while (cases.steps < kMost) {
     std::vector<SensorFigures> figures;
     std::vector<InPlantTrace> traces;
-    residuals.describe(x, figures, traces);
+    residuals.describe(x, figures, traces, threads);
     double share = 0;
     for (const SensorFigures& figure : figures)
       share = std::max(share, figure.training / figure.rms);
-    if (std::isfinite(share) && residuals.step_error(x, recordings) * share <= kSmall) return;
+    if (std::isfinite(share) && residuals.step_error(x, recordings, threads) * share <= kSmall)
+      return;
     cases = make_cases(setup, recordings, 2 * cases.steps);
   }
 }
@@ -190,7 +191,7 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   {
     const LawUnknowns law = spring_and_dashpot(scale, false);
     const PlantResiduals residuals(setup, cases, law, start.plant, scale);
-    residuals.describe(residuals.start(start.plant), figures, traces);
+    residuals.describe(residuals.start(start.plant), figures, traces, options.threads);
     if (!measure(traces))
       throw Error("plant " + std::string(setup.model->name),
                   "does not move, or diverges, with its numbers at the start",
@@ -211,10 +212,9 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   const LeastSquaresReport solved =
       solve(residuals.problem(0, options.threads), residuals.start(start.plant), solver);
   if (std::isfinite(solved.cost)) {
-    if (options.steps == 0) choose_steps(setup, recordings, cases, residuals, solved.x);
-    figures.clear();
-    traces.clear();
-    residuals.describe(solved.x, figures, traces);
+    if (options.steps == 0)
+      choose_steps(setup, recordings, cases, residuals, solved.x, options.threads);
+    residuals.describe(solved.x, figures, traces, options.threads);
     const DataScale before = scale;
     if (!measure(traces)) scale = before;
     for (std::size_t k = 0; k < start.plant.size(); ++k)

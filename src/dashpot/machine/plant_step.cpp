@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/damper/law_side.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
@@ -28,30 +29,34 @@ std::vector<double> response_of(const PlantNumbers& plant, const std::vector<dou
   return exponential(rates, size);
 }
 
-/// The columns beside the plant's, count x 4.
+/// Columns of a response, one after the other: the plant's own, count of them, and the four beside
+/// them.
+std::vector<double> columns_of(const std::vector<double>& response, std::size_t count,
+                               std::size_t first, std::size_t columns) {
+  std::vector<double> out;
+  for (std::size_t k = first; k < first + columns; ++k)
+    for (std::size_t i = 0; i < count; ++i) out.push_back(response[i * (count + kCubic) + k]);
+  return out;
+}
 std::vector<double> beside(const std::vector<double>& response, std::size_t count) {
-  std::vector<double> columns(count * kCubic);
-  for (std::size_t i = 0; i < count; ++i)
-    std::copy_n(response.data() + i * (count + kCubic) + count, kCubic,
-                columns.data() + i * kCubic);
-  return columns;
+  return columns_of(response, count, count, kCubic);
 }
 
 }  // namespace
 
 PlantStep::PlantStep(const PlantNumbers& plant, double length)
-    : count_(2 * plant.size), length_(length), free_(count_ * count_) {
+    : count_(2 * plant.size), length_(length) {
   // A damper's force, which resists: its value at the start, and its change until the end.
   for (std::vector<double> push : plant.by_force) {
     for (double& value : push) value = -value;
     const std::vector<double> response = response_of(plant, push, length);
     const std::vector<double> forced = beside(response, count_);
+    free_ = columns_of(response, count_, 0, count_);
     by_force_.emplace_back();
     by_end_force_.emplace_back();
     for (std::size_t i = 0; i < count_; ++i) {
-      std::copy_n(response.data() + i * (count_ + kCubic), count_, free_.data() + i * count_);
-      by_end_force_.back().push_back(forced[i * kCubic + 1]);
-      by_force_.back().push_back(forced[i * kCubic] - forced[i * kCubic + 1]);
+      by_end_force_.back().push_back(forced[count_ + i]);
+      by_force_.back().push_back(forced[i] - forced[count_ + i]);
     }
   }
 
@@ -60,31 +65,52 @@ PlantStep::PlantStep(const PlantNumbers& plant, double length)
     std::vector<double> by_input = beside(response_of(plant, plant.by_value[u], length), count_);
     const std::vector<double> by_rate =
         beside(response_of(plant, plant.by_rate[u], length), count_);
-    for (std::size_t i = 0; i < count_; ++i)
-      for (std::size_t k = 1; k < kCubic; ++k)
-        by_input[i * kCubic + k] += by_rate[i * kCubic + k - 1] / length;
+    for (std::size_t k = count_; k < by_input.size(); ++k)
+      by_input[k] += by_rate[k - count_] / length;
     by_input_.push_back(std::move(by_input));
   }
 }
 
-void PlantStep::end_without_force(const PlantInputSamples& inputs, std::size_t point,
-                                  const double* state, const double* forces, double* end) const {
-  for (std::size_t i = 0; i < count_; ++i) {
-    double sum = by_force_[0][i] * forces[0];
-    for (std::size_t d = 1; d < by_force_.size(); ++d) sum += by_force_[d][i] * forces[d];
-    for (std::size_t k = 0; k < count_; ++k) sum += free_[i * count_ + k] * state[k];
-    end[i] = sum;
-  }
+/// With the number of states known where it is compiled, for loops without a count; 0: any.
+template <std::size_t kCount>
+void PlantStep::end_of(const PlantInputSamples& inputs, std::size_t point, const double* state,
+                       const double* forces, double* end) const {
+  const std::size_t count = kCount > 0 ? kCount : count_;
+  std::array<double, kCount> own;
+  double* const sum = kCount > 0 ? own.data() : end;
+  const auto add = [&](const std::vector<double>& columns, std::size_t column, double factor) {
+    for (std::size_t i = 0; i < count; ++i) sum[i] += columns[column * count + i] * factor;
+  };
+
+  // By the forces at the start, and by the state there.
+  for (std::size_t i = 0; i < count; ++i) sum[i] = by_force_[0][i] * forces[0];
+  for (std::size_t d = 1; d < by_force_.size(); ++d) add(by_force_[d], 0, forces[d]);
+  for (std::size_t k = 0; k < count; ++k) add(free_, k, state[k]);
+
+  // By each input: Hermite's cubic; each coefficient times the factorial of its power.
   for (std::size_t u = 0; u < by_input_.size(); ++u) {
-    // Hermite's cubic; each coefficient times the factorial of its power.
     const double first = inputs.value[u][point];
     const double change = inputs.value[u][point + 1] - first;
     const double rate = length_ * inputs.rate[u][point];
     const double end_rate = length_ * inputs.rate[u][point + 1];
     const double cubic[kCubic] = {first, rate, 2 * (3 * change - 2 * rate - end_rate),
                                   6 * (rate + end_rate - 2 * change)};
-    for (std::size_t i = 0; i < count_; ++i)
-      for (std::size_t k = 0; k < kCubic; ++k) end[i] += by_input_[u][i * kCubic + k] * cubic[k];
+    for (std::size_t k = 0; k < kCubic; ++k) add(by_input_[u], k, cubic[k]);
+  }
+  if (kCount > 0) std::copy_n(sum, count, end);
+}
+
+void PlantStep::end_without_force(const PlantInputSamples& inputs, std::size_t point,
+                                  const double* state, const double* forces, double* end) const {
+  switch (count_) {
+    case 2:  // an oscillator
+      return end_of<2>(inputs, point, state, forces, end);
+    case 4:  // a quarter car
+      return end_of<4>(inputs, point, state, forces, end);
+    case 8:  // half a car
+      return end_of<8>(inputs, point, state, forces, end);
+    default:
+      return end_of<0>(inputs, point, state, forces, end);
   }
 }
 
@@ -105,6 +131,8 @@ DamperStep::DamperStep(const DamperModel& damper, double length)
     : damper_(damper), law_(model_as<LawModel>(damper)), length_(length), half_(1) {
   if (law_ && !law_->law().step) law_ = nullptr;
   if (law_ && law_->lag_rate() > 0) half_ = LagWeights(0.5 * length * law_->lag_rate());
+  is_constant_ = law_ && !law_->follows_current();
+  if (is_constant_) law_->parameters_at(0, parameters_.data());
 }
 
 /// One step of a law's own, however long, which is smooth in its parameters; else whatever the
@@ -122,13 +150,22 @@ void DamperStep::advance(const DamperInput& from, const DamperInput& to,
     middle = half_.of(state[count], from.current, command);
     end = half_.of(middle, command, to.current);
   }
-  std::array<double, kMaxParams> parameters;
-  law_->parameters_at(middle, parameters.data());
+  std::array<double, kMaxParams> at_middle;
+  if (!is_constant_) law_->parameters_at(middle, at_middle.data());
+  const double* const parameters = is_constant_ ? parameters_.data() : at_middle.data();
 
   const double x[] = {from.displacement, to.displacement}, v[] = {from.velocity, to.velocity};
-  if (law.step(parameters.data(), x, v, length_, state.data()) == 0)
+  if (law.step(parameters, x, v, length_, state.data()) == 0)
     return damper_.advance(from, to, length_, state);
   if (law_->lag_rate() > 0) state[count] = end;
+}
+
+double DamperStep::force_at(const DamperInput& input, std::span<const double> state) const {
+  if (!is_constant_) return damper_.force(input, state);
+  const Law& law = law_->law();
+  const double force =
+      law.force(parameters_.data(), input.displacement, input.velocity, state.data());
+  return law.side_row > 0 ? force + side_force(law, parameters_.data(), input.velocity) : force;
 }
 
 /// The force at the end where `force` was presumed, and the damper's state there.
@@ -140,7 +177,7 @@ double DamperStep::answer(const DamperMotion& motion, double force, std::span<co
   std::ranges::copy(state, end.begin());
   const std::span<double> own(end.data(), state.size());
   advance(motion.from, to, own);
-  return damper_.force(to, own);
+  return force_at(to, own);
 }
 
 double DamperStep::end_force(const DamperMotion& motion, std::span<double> state) {

@@ -41,12 +41,16 @@ class PlantStep {
   }
 
  private:
+  template <std::size_t kCount>
+  void end_of(const PlantInputSamples& inputs, std::size_t point, const double* state,
+              const double* forces, double* end) const;
+
   std::size_t count_;  ///< of states
   double length_;
-  std::vector<double> free_;  ///< count x count
+  std::vector<double> free_;  ///< count x count, a column per state at the start
   /// Per damper, of a newton at the start and at the end.
   std::vector<std::vector<double>> by_force_, by_end_force_;
-  /// Per input, count x 4: of the coefficients of the cubic, each over its factorial.
+  /// Per input, a column for each of 4 coefficients of the cubic, each over its factorial.
   std::vector<std::vector<double>> by_input_;
 };
 
@@ -104,6 +108,7 @@ class DamperStep {
   double answer(const DamperMotion& motion, double force, std::span<const double> state,
                 States& end) const;
   void advance(const DamperInput& from, const DamperInput& to, std::span<double> state) const;
+  double force_at(const DamperInput& input, std::span<const double> state) const;
   double solve(const DamperMotion& motion, std::span<double> state);
   double solve_beside(const DamperMotion& motion, const StepTangent& tangent,
                       std::span<double> state);
@@ -111,7 +116,9 @@ class DamperStep {
                       std::span<double> state);
 
   const DamperModel& damper_;
-  const LawModel* law_;  ///< null unless it has a step of its own
+  const LawModel* law_;       ///< null unless it has a step of its own
+  bool is_constant_ = false;  ///< the law's parameters are, and stand in `parameters_`
+  std::array<double, kMaxParams> parameters_;
   double length_;
   LagWeights half_;     ///< of its coil over half the step
   double before_ = 0;   ///< the force a step ago

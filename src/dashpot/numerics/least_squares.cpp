@@ -198,7 +198,7 @@ std::vector<double> normal_matrix(const std::vector<double>& jacobian, std::size
 }
 
 /// Cost, J'J and J'r at report.x; rows and columns of fixed unknowns are zero.
-void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
+void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem, int threads,
                   LeastSquaresReport& report) {
   // Residuals and Jacobian at the end, without the columns of fixed unknowns. Where the derivatives
   // fail the residuals may still be there.
@@ -221,13 +221,14 @@ void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
   report.gradient.assign(n, 0.0);
   for (std::size_t a = 0; a < n; ++a)
     report.gradient[a] = std::inner_product(&jacobian[a * m], &jacobian[a * m] + m, r.begin(), 0.0);
-  report.part_matrices.clear();
-  for (std::size_t p = 0; p < problem.parts.size(); ++p) {
+  report.part_matrices.assign(problem.parts.size(), {});
+  parallel_for(problem.parts.size(), threads, [&](std::size_t p) {
     const std::size_t end = p + 1 < problem.parts.size() ? problem.parts[p + 1] : m;
-    report.part_matrices.push_back(normal_matrix(jacobian, m, problem.parts[p], end));
-    std::transform(report.normal_matrix.begin(), report.normal_matrix.end(),
-                   report.part_matrices.back().begin(), report.normal_matrix.begin(), std::plus());
-  }
+    report.part_matrices[p] = normal_matrix(jacobian, m, problem.parts[p], end);
+  });
+  for (const std::vector<double>& part : report.part_matrices)
+    std::transform(report.normal_matrix.begin(), report.normal_matrix.end(), part.begin(),
+                   report.normal_matrix.begin(), std::plus());
 }
 
 /// Lets go of unknowns that would lower the cost by leaving their bound, each once. True when there
@@ -284,7 +285,7 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
     const bool arrived = now != held;
     held = now;
     if (arrived && report.iterations < options.max_iterations) continue;
-    if (!failure) describe_end(whole, problem, report);
+    if (!failure) describe_end(whole, problem, options.threads, report);
     if (report.iterations >= options.max_iterations || !release(problem, report, held, released))
       break;
   }
@@ -302,7 +303,7 @@ LeastSquaresReport describe_at(const LeastSquaresProblem& problem, std::vector<d
     report.x[k] = std::clamp(report.x[k], problem.lower[k], problem.upper[k]);
   std::exception_ptr failure;
   const WholeProblem whole(problem, options, failure);
-  describe_end(whole, problem, report);
+  describe_end(whole, problem, options.threads, report);
   if (failure) std::rethrow_exception(failure);
   return report;
 }

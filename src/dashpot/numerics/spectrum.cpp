@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include <unsupported/Eigen/FFT>
 
@@ -55,22 +56,34 @@ PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt) {
   return mean;
 }
 
+namespace {
+
+/// One for half spectra of so many samples; a thread keeps its last one, since its factors cost as
+/// much as a transform.
+Eigen::FFT<double>& half_transform(std::size_t samples) {
+  thread_local std::size_t length = 0;
+  thread_local std::optional<Eigen::FFT<double>> fft;
+  if (!fft || length != samples) {
+    fft.emplace();
+    fft->SetFlag(Eigen::FFT<double>::HalfSpectrum);
+    length = samples;
+  }
+  return *fft;
+}
+
+}  // namespace
+
 std::vector<std::complex<double>> half_spectrum(std::span<const double> x) {
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<double> samples(x.begin(), x.end());
   std::vector<std::complex<double>> lines;
-  fft.fwd(lines, samples);
+  half_transform(x.size()).fwd(lines, std::vector<double>(x.begin(), x.end()));
   return lines;
 }
 
 std::vector<double> from_half_spectrum(std::span<const std::complex<double>> lines,
                                        std::size_t samples) {
-  Eigen::FFT<double> fft;
-  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-  std::vector<std::complex<double>> half(lines.begin(), lines.end());
   std::vector<double> x;
-  fft.inv(x, half, static_cast<Eigen::Index>(samples));
+  half_transform(samples).inv(x, std::vector<std::complex<double>>(lines.begin(), lines.end()),
+                              static_cast<Eigen::Index>(samples));
   return x;
 }
 
