@@ -33,7 +33,7 @@ namespace {
 
 using httplib::Request, httplib::Response;
 
-constexpr std::size_t kThreads = 24, kMostWaiting = 128;
+constexpr std::size_t kThreads = 24, kMostQueued = 128;
 constexpr std::size_t kMostUpload = std::size_t{1} << 30;
 constexpr int kTimeout = 10;  // s without a byte
 
@@ -87,7 +87,7 @@ class Studio {
 
  private:
   static void limit(httplib::Server& server) {
-    server.new_task_queue = [] { return new TaskQueue(kThreads, kMostWaiting); };
+    server.new_task_queue = [] { return new TaskQueue(kThreads, kMostQueued); };
     server.set_payload_max_length(kMostUpload);
     server.set_read_timeout(kTimeout);
     server.set_write_timeout(kTimeout);

@@ -157,7 +157,8 @@ TEST_CASE("nothing is ridden where constraints without a ride already rule a dam
   CHECK(ridden("constraints: [{quantity: gap, max: 1 mm}]\n") < 0.8);
 }
 
-TEST_CASE("a robust design rides the drawing first, and the dampers made near its best") {
+TEST_CASE("a robust design rides the drawing first, and the dampers made near its best" *
+          doctest::test_suite("long")) {
   DesignRequest request = parsed(
       "ride: {plant: savaresi_spelta}\ntolerances: {gap: 0.1 mm}\n"
       "robust: {share: 0.9, samples: 16}\ngoals: [{minimise: comfort}]");

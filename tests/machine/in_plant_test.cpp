@@ -136,7 +136,7 @@ TEST_CASE("in plant: mass and Bouc-Wen of an oscillator from its displacement, w
   CHECK(report.knowable.confounded.empty());
 }
 
-TEST_CASE("in plant: the same bits on any number of threads") {
+TEST_CASE("in plant: the same bits on any number of threads" * doctest::test_suite("long")) {
   InPlantOptions options{.starts = 3, .threads = 1};
   const InPlantReport one =
       identify_in_plant(find_law("dahl"), oscillator_setup(), {short_recording()}, options);

@@ -232,7 +232,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("several dampers: a law with a sharp knee, and the same bits on any number of threads") {
+TEST_CASE("several dampers: a law with a sharp knee, and the same bits on any number of threads" *
+          doctest::test_suite("long")) {
   InPlantOptions options{.starts = 2, .iterations = 8, .threads = 1, .grade = ""};
   const std::vector<PlantRecording> recordings = {half_car_ride(1, 2)};
   const InPlantReport one =
