@@ -17,6 +17,16 @@ double output_step_of(const Setting& setting, const SimulateOptions& options) {
   return setting.controller ? options.limits.sample_time : 1e-3;
 }
 
+/// Whether a controller may look at the plant's state: it is one of those that say so, or none of
+/// those that are known by name.
+bool may_need_plant_state(const ControlDescription& controller) {
+  const auto& choices = controller.choices;
+  if (!choices.empty()) return std::ranges::any_of(choices, may_need_plant_state);
+  const auto laws = control_laws();
+  const auto law = std::ranges::find(laws, controller.law, &ControlLaw::name);
+  return law == laws.end() || (*law)->needs_plant_state;
+}
+
 /// Instants k dt, without the sum of their rounding.
 class Clock {
  public:
@@ -52,8 +62,12 @@ class Simulation {
         signals_(setting.plant.struts.size()),
         demands_(signals_.size()),
         road_(setting.plant.tyres.size()),
+        motions_(signals_.size()),
         controller_state_(setting.controller ? setting.controller->state_size() : 0) {
-    if (setting.controller) setting.controller->reset(controller_state_);
+    if (setting.controller) {
+      setting.controller->reset(controller_state_);
+      needs_plant_state_ = may_need_plant_state(setting.controller->description());
+    }
 
     // Instants at which the road jumps under some tyre.
     for (const Tyre& tyre : setting.plant.tyres)
@@ -72,7 +86,7 @@ class Simulation {
       meet_jumps();
       const bool samples_now = samples.strikes(state_.time);
       const bool writes_now = output.strikes(state_.time);
-      if (samples_now || writes_now) meet_road();
+      if (samples_now || writes_now) look();
       if (samples_now) control();
       if (writes_now) write();
       if (state_.time >= end * (1 - 1e-12)) break;
@@ -99,9 +113,14 @@ class Simulation {
     if (jump_ != before) integrator_.refresh(state_);
   }
 
-  /// The road as samples and outputs at this instant have it.
-  void meet_road() {
+  /// The road and the struts' motions as samples and outputs at this instant have them.
+  void look() {
     for (std::size_t w = 0; w < road_.size(); ++w) road_[w] = forces_.foot(w, state_.time);
+    forces_.with_sizes([&](auto sizes) {
+      for (std::size_t s = 0; s < sizes.struts; ++s)
+        motions_[s] = forces_.strut_motion(sizes, s, state_.time, state_.x.data(),
+                                           state_.dampers[s].current());
+    });
   }
 
   void control() {
@@ -113,7 +132,7 @@ class Simulation {
     sensors_.measure(signals_);
     std::vector<double>& x = plant_state_;
     x.clear();
-    if (sensors_.ideal()) {
+    if (sensors_.ideal() && needs_plant_state_) {
       x = state_.x;
       resting_.resize(n);
       forces_.resting_place(road_, resting_);
@@ -133,21 +152,19 @@ class Simulation {
 
   StrutSignals signals_of(std::size_t s) const {
     const Strut& strut = setting_.plant.struts[s];
-    const std::size_t n = setting_.plant.size();
-    const double current = state_.dampers[s].current();
-    const DamperInput motion = forces_.strut_motion(s, state_.time, state_.x, current);
-    return {.body_velocity = along(strut.body_row, state_.x.data() + n),
+    const double body_velocity = along(strut.body_row, state_.x.data() + setting_.plant.size());
+    return {.body_velocity = body_velocity,
             .body_acceleration = along(strut.body_row, state_.acceleration.data()),
-            .wheel_velocity = along(strut.body_row, state_.x.data() + n) - motion.velocity,
-            .deflection = motion.displacement,
-            .deflection_velocity = motion.velocity,
+            .wheel_velocity = body_velocity - motions_[s].velocity,
+            .deflection = motions_[s].displacement,
+            .deflection_velocity = motions_[s].velocity,
             .force = state_.damper_forces[s],
-            .current = current};
+            .current = motions_[s].current};
   }
 
   void write() {
     options_.monitor.check();
-    writer_.write(state_, road_);
+    writer_.write(state_, road_, motions_);
   }
 
   void finish(Trace& trace) {
@@ -190,9 +207,11 @@ class Simulation {
   TraceWriter writer_;
   std::vector<StrutSignals> signals_;
   std::vector<DamperDemand> demands_;
-  std::vector<FootMotion> road_;  ///< under each tyre, at the last sample or output
+  std::vector<FootMotion> road_;      ///< under each tyre, at the last sample or output
+  std::vector<DamperInput> motions_;  ///< of each strut there
   std::vector<double> controller_state_, plant_state_, resting_, jumps_;
   std::size_t jump_ = 0;
+  bool needs_plant_state_ = false;
 };
 
 /// Refuses before it begins what would take hours, or more memory than there is.

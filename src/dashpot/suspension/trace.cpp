@@ -27,7 +27,7 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
     : plant_(plant), forces_(forces), ground_(ground) {
   const auto channel = [&](const std::string& name, const std::string& unit) {
     record_.channels.push_back({.name = name, .unit = unit, .origin = "simulated"});
-    record_.channels.back().samples.reserve(samples);
+    record_.channels.back().samples.reserve(samples + kRows);
   };
 
   // Channels in the order in which write() adds their samples.
@@ -54,7 +54,8 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
   }
   if (!plant.ground.empty()) channel("ground_acceleration", "m/s^2");
 
-  record_.time.reserve(samples);
+  record_.time.reserve(samples + kRows);
+  columns_.resize(1 + record_.channels.size());
   record_.name = plant.name;
   record_.condition = ground.description();
   record_.source = "simulation";
@@ -72,13 +73,33 @@ double stops_met(const Record& trace, const Plant& plant, std::size_t first) {
   });
 }
 
-void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road) {
+void TraceWriter::make_room() {
+  const auto grow = [](std::vector<double>& samples) {
+    samples.resize(samples.size() + kRows);
+    return &*(samples.end() - kRows);
+  };
+  columns_[0] = grow(record_.time);
+  for (std::size_t c = 0; c < record_.channels.size(); ++c)
+    columns_[1 + c] = grow(record_.channels[c].samples);
+  row_ = 0;
+}
+
+Record TraceWriter::take() {
+  const std::size_t written = record_.time.size() + row_ - kRows;
+  record_.time.resize(written);
+  for (Channel& channel : record_.channels) channel.samples.resize(written);
+  return std::move(record_);
+}
+
+void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road,
+                        std::span<const DamperInput> motions) {
   const std::size_t n = plant_.size();
   const double *q = state.x.data(), *v = q + n;
-  record_.time.push_back(state.time);
+  if (row_ == kRows) make_room();
 
-  // Samples in the order of the channels.
+  // The time, then samples in the order of the channels.
   place_ = 0;
+  add(state.time);
   for (std::size_t k = 0; k < n; ++k) {
     add(q[k]);
     add(v[k]);
@@ -90,9 +111,8 @@ void TraceWriter::write(const PlantState& state, std::span<const FootMotion> roa
   }
   for (std::size_t s = 0; s < plant_.struts.size(); ++s) {
     const DamperState& damper = state.dampers[s];
-    const DamperInput motion = forces_.strut_motion(s, state.time, state.x, damper.current());
-    add(motion.displacement);
-    add(motion.velocity);
+    add(motions[s].displacement);
+    add(motions[s].velocity);
     add(state.damper_forces[s]);
     add(damper.current());
     add(damper.command());
@@ -103,6 +123,7 @@ void TraceWriter::write(const PlantState& state, std::span<const FootMotion> roa
     add(forces_.tyre_load(w, road[w], state.x));
   }
   if (!plant_.ground.empty()) add(ground_.acceleration(state.time));
+  ++row_;
 }
 
 }  // namespace dashpot
