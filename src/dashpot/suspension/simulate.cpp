@@ -31,17 +31,18 @@ bool may_need_plant_state(const ControlDescription& controller) {
 class Clock {
  public:
   explicit Clock(double dt) : dt_(dt) {}
-  double next() const { return dt_ > 0 ? dt_ * static_cast<double>(ticks_) : INFINITY; }
+  double next() const { return next_; }
   /// Whether this is its instant, to a rounding; then it goes on.
   bool strikes(double t) {
-    if (!(t >= next() - 1e-9 * dt_)) return false;
-    ++ticks_;
+    if (!(t >= next_ - 1e-9 * dt_)) return false;
+    next_ = dt_ * static_cast<double>(++ticks_);
     return true;
   }
 
  private:
   double dt_;
   std::size_t ticks_ = 0;
+  double next_ = dt_ > 0 ? 0 : INFINITY;
 };
 
 class Simulation {
@@ -115,8 +116,10 @@ class Simulation {
 
   /// The road and the struts' motions as samples and outputs at this instant have them.
   void look() {
-    for (std::size_t w = 0; w < road_.size(); ++w) road_[w] = forces_.foot(w, state_.time);
+    const bool known = state_.road_time == state_.time;
     forces_.with_sizes([&](auto sizes) {
+      for (std::size_t w = 0; w < sizes.tyres; ++w)
+        road_[w] = known ? state_.road[w] : forces_.foot(w, state_.time);
       for (std::size_t s = 0; s < sizes.struts; ++s)
         motions_[s] = forces_.strut_motion(sizes, s, state_.time, state_.x.data(),
                                            state_.dampers[s].current());
@@ -124,11 +127,12 @@ class Simulation {
   }
 
   void control() {
-    const Plant& plant = setting_.plant;
-    const std::size_t n = plant.size();
+    const std::size_t n = setting_.plant.size();
 
     // Signals as the sensors see them; ideal ones give the plant's state as well.
-    for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s] = signals_of(s);
+    forces_.with_sizes([&](auto sizes) {
+      for (std::size_t s = 0; s < sizes.struts; ++s) signals_[s] = signals_of(sizes, s);
+    });
     sensors_.measure(signals_);
     std::vector<double>& x = plant_state_;
     x.clear();
@@ -142,19 +146,22 @@ class Simulation {
     // Each demand on its way to a current; forces are others where one has changed.
     setting_.controller->step(signals_, x, controller_state_, demands_);
     bool changed = false;
-    for (std::size_t s = 0; s < signals_.size(); ++s)
-      changed |= state_.dampers[s].demand(
-          demands_[s],
-          {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
-          signals_[s].force);
+    forces_.with_sizes([&](auto sizes) {
+      for (std::size_t s = 0; s < sizes.struts; ++s)
+        changed |= state_.dampers[s].demand(
+            demands_[s],
+            {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
+            signals_[s].force);
+    });
     if (changed) integrator_.refresh(state_);
   }
 
-  StrutSignals signals_of(std::size_t s) const {
-    const Strut& strut = setting_.plant.struts[s];
-    const double body_velocity = along(strut.body_row, state_.x.data() + setting_.plant.size());
+  template <class Sizes>
+  StrutSignals signals_of(Sizes sizes, std::size_t s) const {
+    const std::vector<double>& row = setting_.plant.struts[s].body_row;
+    const double body_velocity = along(sizes, row, state_.x.data() + sizes.coordinates);
     return {.body_velocity = body_velocity,
-            .body_acceleration = along(strut.body_row, state_.acceleration.data()),
+            .body_acceleration = along(sizes, row, state_.acceleration.data()),
             .wheel_velocity = body_velocity - motions_[s].velocity,
             .deflection = motions_[s].displacement,
             .deflection_velocity = motions_[s].velocity,

@@ -91,25 +91,25 @@ Record TraceWriter::take() {
   return std::move(record_);
 }
 
-void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road,
-                        std::span<const DamperInput> motions) {
-  const std::size_t n = plant_.size();
-  const double *q = state.x.data(), *v = q + n;
-  if (row_ == kRows) make_room();
+template <class Sizes>
+void TraceWriter::write_row(Sizes sizes, const PlantState& state, std::span<const FootMotion> road,
+                            std::span<const DamperInput> motions) {
+  const double *q = state.x.data(), *v = q + sizes.coordinates, *a = state.acceleration.data();
+  double* const* column = columns_.data();
+  const auto add = [&column, row = row_](double value) { (*column++)[row] = value; };
 
   // The time, then samples in the order of the channels.
-  place_ = 0;
   add(state.time);
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < sizes.coordinates; ++k) {
     add(q[k]);
     add(v[k]);
-    add(state.acceleration[k]);
+    add(a[k]);
   }
   for (const PlantPoint& point : plant_.points) {
-    add(along(point.row, q));
-    add(along(point.row, state.acceleration.data()));
+    add(along(sizes, point.row, q));
+    add(along(sizes, point.row, a));
   }
-  for (std::size_t s = 0; s < plant_.struts.size(); ++s) {
+  for (std::size_t s = 0; s < sizes.struts; ++s) {
     const DamperState& damper = state.dampers[s];
     add(motions[s].displacement);
     add(motions[s].velocity);
@@ -117,12 +117,18 @@ void TraceWriter::write(const PlantState& state, std::span<const FootMotion> roa
     add(damper.current());
     add(damper.command());
   }
-  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
+  for (std::size_t w = 0; w < sizes.tyres; ++w) {
     add(road[w].height);
-    add(along(plant_.tyres[w].row, q) - road[w].height);
-    add(forces_.tyre_load(w, road[w], state.x));
+    add(along(sizes, plant_.tyres[w].row, q) - road[w].height);
+    add(forces_.tyre_load(sizes, w, road[w], q));
   }
   if (!plant_.ground.empty()) add(ground_.acceleration(state.time));
+}
+
+void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road,
+                        std::span<const DamperInput> motions) {
+  if (row_ == kRows) make_room();
+  forces_.with_sizes([&](auto sizes) { write_row(sizes, state, road, motions); });
   ++row_;
 }
 

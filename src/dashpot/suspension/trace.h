@@ -21,7 +21,10 @@ class TraceWriter {
 
  private:
   void make_room();
-  void add(double value) { columns_[place_++][row_] = value; }
+  /// write() of a plant with these sizes, into a room for one more sample.
+  template <class Sizes>
+  void write_row(Sizes sizes, const PlantState& state, std::span<const FootMotion> road,
+                 std::span<const DamperInput> motions);
 
   const Plant& plant_;
   const PlantForces& forces_;
@@ -30,7 +33,7 @@ class TraceWriter {
   /// The next kRows samples of the time and of each channel, of which row_ are written.
   static constexpr std::size_t kRows = 64;
   std::vector<double*> columns_;
-  std::size_t row_ = kRows, place_ = 0;
+  std::size_t row_ = kRows;
 };
 
 /// Shares of the samples from `first` on: in which some tyre has no load or pulls; in which some

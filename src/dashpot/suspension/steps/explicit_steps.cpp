@@ -162,8 +162,8 @@ class ExplicitSteps final : public StepMethod {
     const auto stage = [&]<std::size_t kStage, std::size_t... kBefore>(
                            std::index_sequence<kBefore...>) __attribute__((always_inline)) {
       constexpr const auto& kWeights = Method::kFrom[kStage];
-      at.heights = y.heights + h * ((kWeights[kBefore] * k[kBefore].heights) + ...);
-      at.speeds = y.speeds + h * ((kWeights[kBefore] * k[kBefore].speeds) + ...);
+      at.heights = y.heights + h * ((both(kWeights[kBefore]) * k[kBefore].heights) + ...);
+      at.speeds = y.speeds + h * ((both(kWeights[kBefore]) * k[kBefore].speeds) + ...);
       for (std::size_t i = 0; i < kSize - 4; ++i)
         at.law[i] = y.law[i] + h * ((kWeights[kBefore] * k[kBefore].law[i]) + ...);
       forces = car.rates<kFollows>(equations_.law_parameters(instant_of(kStage)),
@@ -190,6 +190,8 @@ class ExplicitSteps final : public StepMethod {
     off.put(off_.data());
     equations_.put_forces(forces);
   }
+  /// The same number for body and wheel.
+  static constexpr BodyAndWheel both(double number) { return BodyAndWheel{number, number}; }
   /// (y_5 - y_4) / h from the slopes, slope_of(stage).
   template <class SlopeOf>
   [[gnu::always_inline]] static inline auto error_of(SlopeOf slope_of) {

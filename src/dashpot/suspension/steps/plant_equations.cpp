@@ -68,14 +68,18 @@ void PlantEquations::read(const PlantState& state, double* y) {
 
 void PlantEquations::read_currents(const PlantState& state) {
   state_ = &state;
-  for (std::size_t s = 0; s < state.dampers.size(); ++s) {
-    currents_[s] = state.dampers[s].current();
-    steady_[s] = state.dampers[s].is_steady();
-    SteadyLaw& steady = laws_[s];
-    if (!steady.law.law || !steady_[s] || currents_[s] == steady.current) continue;
-    steady.current = currents_[s];
-    steady.law.law->parameters_at(steady.current, steady.parameters.data());
-  }
+  forces_.with_sizes([&](auto sizes) {
+    for (std::size_t s = 0; s < sizes.struts; ++s) {
+      const double current = state.dampers[s].current();
+      const bool stays = state.dampers[s].is_steady();
+      currents_[s] = current;
+      steady_[s] = stays;
+      SteadyLaw& steady = laws_[s];
+      if (!steady.law.law || !stays || current == steady.current) continue;
+      steady.current = current;
+      steady.law.law->parameters_at(current, steady.parameters.data());
+    }
+  });
 }
 
 void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
@@ -135,10 +139,11 @@ void PlantEquations::rates_at(std::size_t instant, const double* y, double* dy) 
 
 void PlantEquations::look_ahead(const Instants& after) noexcept {
   after_ = after;
-  std::array<double, kInstants> times;
-  for (std::size_t k = 0; k < kInstants; ++k) times[k] = state_->time + after[k];
-  for (std::size_t w = 0; w < forces_.sizes().tyres; ++w)
-    forces_.feet(w, times, std::span(feet_).subspan(w * kInstants, kInstants));
+  for (std::size_t k = 0; k < kInstants; ++k) times_[k] = state_->time + after[k];
+  forces_.with_sizes([&](auto sizes) {
+    for (std::size_t w = 0; w < sizes.tyres; ++w)
+      forces_.feet(w, times_, {feet_.data() + w * kInstants, kInstants});
+  });
   if (!is_road_car_ || steady_[0]) return;
   for (std::size_t k = 0; k < kInstants; ++k)
     road_car_.law.law->parameters_at(state_->dampers[0].current_after(after[k]), ahead_[k].data());
@@ -166,8 +171,14 @@ void PlantEquations::write(const double* y, const double* dy, double end, PlantS
     y += damper.model_state().size();
     damper.advance_coil(end - state.time);
   }
-  state.time = end;
   write_forces(dy, state);
+
+  // The road at the last of the instants ahead, where that is the end.
+  state.time = end;
+  if (times_.back() != end) return;
+  state.road_time = end;
+  for (std::size_t w = 0; w < state.road.size(); ++w)
+    state.road[w] = feet_[w * kInstants + kInstants - 1];
 }
 
 }  // namespace dashpot

@@ -73,7 +73,8 @@ class PlantEquations {
   std::vector<SteadyLaw> laws_;  ///< one per damper
   std::vector<FollowedLoop> loops_;
   std::vector<double> states_;    ///< of the dampers at the last call of rates(), loops by their z
-  Instants after_{};              ///< the instants ahead
+  Instants after_{};              ///< the instants ahead, s after the state's
+  Instants times_{};              ///< and their times, s
   std::vector<FootMotion> feet_;  ///< there, tyre by tyre
   bool is_road_car_ = false;
   RoadCar road_car_{};
