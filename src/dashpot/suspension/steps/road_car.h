@@ -66,11 +66,13 @@ struct RoadCar {
 
     // The damper's force, and the rates of its states.
     const BodyAndWheel ways = row * y.heights, speeds = row * y.speeds;
-    const double x = 0 + ways[0] + ways[1], v = 0 + speeds[0] + speeds[1];
-    const double damper =
-        ratio * (factor * law.flow(parameters, {ratio * x, ratio * v, 0}, z, dy.law));
+    const double x = ways[0] + ways[1], v = speeds[0] + speeds[1];
+    DamperInput motion{x, v, 0};
+    if (ratio != 1) motion = {ratio * x, ratio * v, 0};
+    double damper = factor * law.flow(parameters, motion, z, dy.law);
+    if (ratio != 1) damper *= ratio;
     const double strut = damper + strut_resistance(stops, x, 0.0);
-    if constexpr (kFollows) fold<kStates>(ratio * v, dy.law);
+    if constexpr (kFollows) fold<kStates>(motion.velocity, dy.law);
 
     // The motion under it and on this road.
     const double pushed = road_push(tyre, foot.height, foot.velocity);
