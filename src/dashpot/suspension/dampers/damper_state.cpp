@@ -79,6 +79,13 @@ DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limit
 }
 
 bool DamperState::demand(const DamperDemand& demand, const DamperInput& now, double force) {
+  // A damping or a current that stays asks for the same command, whatever the motion.
+  const bool stays = demand.kind == demand_.kind && demand.value == demand_.value &&
+                     (demand.kind == DamperDemand::Kind::Current ||
+                      (demand.kind == DamperDemand::Kind::Damping && !damper_->inverse));
+  if (is_at_rest_ && stays) return false;
+
+  demand_ = demand;
   const double before = command_;
   command_ = path_.command(demand, now, force);
   if (is_at_rest_ && command_ == before) return false;

@@ -100,6 +100,7 @@ class DamperState {
   Driver driver_;
   std::vector<double> state_, driver_state_;
   double command_ = 0;
+  DamperDemand demand_{DamperDemand::Kind::Force};  ///< the last one; at first none that stays
   /// Neither time nor the same command again changes the driver's state.
   bool is_at_rest_ = false;
 };

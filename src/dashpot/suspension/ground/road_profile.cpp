@@ -62,9 +62,9 @@ typedef double Places __attribute__((vector_size(kTogether * sizeof(double))));
 /// the first points of all stand side by side.
 [[gnu::always_inline]] inline Cubic<Places> cubics_at(const double* z, const int* points,
                                                       const double* shares) {
-  Places of[kTogether], u;
+  Places of[kTogether];
   for (int n = 0; n < kTogether; ++n) std::memcpy(&of[n], z + points[n], sizeof of[n]);
-  std::memcpy(&u, shares, sizeof u);
+  const Places u{shares[0], shares[1], shares[2], shares[3]};
   const Places a = __builtin_shufflevector(of[0], of[1], 0, 4, 2, 6),
                b = __builtin_shufflevector(of[0], of[1], 1, 5, 3, 7),
                c = __builtin_shufflevector(of[2], of[3], 0, 4, 2, 6),

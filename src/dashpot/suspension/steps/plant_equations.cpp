@@ -56,14 +56,14 @@ void PlantEquations::follow_loops(const PlantState& start, const IntegratorOptio
 
 void PlantEquations::read(const PlantState& state, double* y) {
   read_currents(state);
-  y = std::copy(state.x.begin(), state.x.end(), y);
+  double* z = y + state.x.size();
+  forces_.with_sizes([&](auto sizes) { std::copy_n(state.x.data(), 2 * sizes.coordinates, y); });
   for (const DamperState& damper : state.dampers)
-    y = std::copy(damper.model_state().begin(), damper.model_state().end(), y);
+    for (const double value : damper.model_state()) *z++ = value;
 
   // A loop goes on along its branch where z is as it was left.
-  double* first = y - size_;
   for (FollowedLoop& loop : loops_)
-    first[loop.place] = first[loop.place] == loop.z ? loop.r : loop.path.folded(first[loop.place]);
+    y[loop.place] = y[loop.place] == loop.z ? loop.r : loop.path.folded(y[loop.place]);
 }
 
 void PlantEquations::read_currents(const PlantState& state) {
