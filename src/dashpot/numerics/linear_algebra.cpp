@@ -60,9 +60,9 @@ MatrixXcd stable_subspace(const MatrixXd& hamiltonian) {
   return stable;
 }
 
-/// Factors of a small matrix by plain loops: a vehicle's integrator solves with one of five rows six
-/// times per step, which Eigen's blocks and panels only delay. In Eigen's own order of sums, and so
-/// the same to the bit.
+/// Factors of a small matrix by plain loops: a vehicle's integrator solves with one of five rows
+/// six times per step, which Eigen's blocks and panels only delay. In Eigen's own order of sums,
+/// and so the same to the bit.
 class SmallFactors {
  public:
   static constexpr std::size_t kMost = 8;  // one panel of Eigen's

@@ -48,8 +48,8 @@ class Softened final : public DamperModel {
 
  private:
   double between_ends(const DamperInput& input, std::span<const double> state) const noexcept {
-    return middle_.between_ends(
-        input, [&](const DamperInput& at) { return model_->force(at, state); });
+    return middle_.between_ends(input,
+                                [&](const DamperInput& at) { return model_->force(at, state); });
   }
 
   std::shared_ptr<const DamperModel> model_;

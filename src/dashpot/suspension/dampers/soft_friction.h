@@ -12,8 +12,8 @@ namespace dashpot {
 constexpr double kFrictionSpeed = 2e-3;  // m/s
 constexpr double kSideWay = 2e-4;        // m
 
-/// Where one input of a damper is within `reach` of 0, its force is a straight line between those at
-/// both ends.
+/// Where one input of a damper is within `reach` of 0, its force is a straight line between those
+/// at both ends.
 struct SoftMiddle {
   double DamperInput::* input = nullptr;
   double reach = 0;

@@ -160,8 +160,8 @@ double PlantForces::tyre_load(Sizes sizes, std::size_t tyre, const FootMotion& g
   // road's push, which rounds differently.
   const Tyre& w = plant_.tyres[tyre];
   const double height = along(sizes, w.row, x), rate = along(sizes, w.row, x + sizes.coordinates);
-  const double load = w.static_load + w.stiffness * (ground.height - height) +
-                      w.damping * (ground.velocity - rate);
+  const double load =
+      w.static_load + w.stiffness * (ground.height - height) + w.damping * (ground.velocity - rate);
   return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
 }
 

@@ -145,7 +145,7 @@ class ExplicitSteps final : public StepMethod {
       stage<4>(h, trial_);
       stage<5>(h, trial_);
       stage<6>(h, end_);
-      for (std::size_t i = 0; i < size_; ++i) 
+      for (std::size_t i = 0; i < size_; ++i)
         off_[i] = error_of([&](std::size_t s) { return k_[s][i]; });
     }
   }
