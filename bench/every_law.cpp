@@ -1,12 +1,13 @@
 // simulate() beside general integrators with every law that ships, at equal error;
 // docs/performance.md prints it.
 //
-//   every_law [--rounds N] [--curves] [NAME ...]
+//   every_law [--rounds N] [--odeint] [--curves] [NAME ...]
 //
 // NAME: a law, at the example of its table, or a published set; all laws and sets where there is
-// none.
+// none. --odeint: beside odeint alone, in a fifth of the time.
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "dashpot/damper/law_list.h"
 #include "peers/arkode_ride.h"
@@ -124,7 +125,7 @@ struct Row {
 };
 
 /// All programs take turns, at all tolerances.
-Row measure(const std::string& name, int rounds) {
+Row measure(const std::string& name, std::span<const Peer> peers, int rounds) {
   Row row{.ride = law_ride(name)};
   RideTrace reference, other;
   const auto with = [&](Run* run, double relative, RideTrace* trace) {
@@ -143,7 +144,7 @@ Row measure(const std::string& name, int rounds) {
   for (const double relative : kOwnTolerances)
     row.own.push_back(point(
         relative, [&](double r, RideTrace* trace) { return by_simulate(row.ride, r, trace); }));
-  for (const Peer& peer : kPeers) {
+  for (const Peer& peer : peers) {
     row.peers.emplace_back();
     for (std::size_t k = 0; k < peer.tolerances; ++k)
       row.peers.back().push_back(point(kPeerTolerances[k], [&](double r, RideTrace* trace) {
@@ -162,7 +163,7 @@ Row measure(const std::string& name, int rounds) {
     for (std::size_t p = 0; p < theirs.size(); ++p)
       for (std::size_t k = 0; k < theirs[p].size(); ++k) {
         kept.clear();
-        theirs[p][k].push_back(with(kPeers[p].run, row.peers[p][k].relative, &kept));
+        theirs[p][k].push_back(with(peers[p].run, row.peers[p][k].relative, &kept));
       }
   }
   for (std::size_t k = 0; k < own.size(); ++k) row.own[k].seconds = median(own[k]);
@@ -207,12 +208,15 @@ int main(int count, char** arguments) {
   keep_memory();
   int rounds = 3;
   bool curves = false;
+  std::span<const Peer> peers = kPeers;
   std::vector<std::string> names;
   for (int k = 1; k < count; ++k) {
     if (!std::strcmp(arguments[k], "--rounds") && k + 1 < count)
       rounds = std::atoi(arguments[++k]);
     else if (!std::strcmp(arguments[k], "--curves"))
       curves = true;
+    else if (!std::strcmp(arguments[k], "--odeint"))
+      peers = peers.first(1);
     else
       names.emplace_back(arguments[k]);
   }
@@ -225,7 +229,7 @@ int main(int count, char** arguments) {
       "1e-8 | doubt |\n"
       "|---|---|---:|---:|---:|---|---:|---:|---:|---:|\n");
   for (const std::string& name : names) {
-    const Row row = measure(name, rounds);
+    const Row row = measure(name, peers, rounds);
     print(row);
     if (curves) print_curves(row);
   }

@@ -87,6 +87,32 @@ TEST_CASE("factors serve many right sides and the next matrix") {
   CHECK(x == std::vector<double>{0.5, 0.5});
 }
 
+TEST_CASE("factors of small and of large matrices solve what was multiplied out") {
+  for (const std::size_t n : {1, 5, 8, 9, 12}) {
+    // A Hilbert matrix turned upside down, so that rows must change places, with ones on top.
+    std::vector<double> columns(n * n), wanted(n), right(n), x(n);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i)
+        columns[j * n + i] = 1 / static_cast<double>(n - i + j) + (i == j ? 1 : 0);
+    for (std::size_t j = 0; j < n; ++j) {
+      wanted[j] = static_cast<double>(j) - 2;
+      for (std::size_t i = 0; i < n; ++i) right[i] += columns[j * n + i] * wanted[j];
+    }
+
+    Factors factors;
+    factors.factorise_columns(columns, n);
+    factors.solve(right, x);
+    for (std::size_t k = 0; k < n; ++k) CHECK_CLOSE(x[k], wanted[k], 1e-11, 1e-11);
+  }
+
+  // The first number is 0: no pivot without another row.
+  Factors factors;
+  std::vector<double> x(3);
+  factors.factorise_columns(std::vector<double>{0, 2, 0, 0, 0, 4, 8, 0, 0}, 3);
+  factors.solve(std::vector<double>{8, 2, 4}, x);
+  CHECK(x == std::vector<double>{1, 1, 1});
+}
+
 TEST_CASE("the exponential of a rotation and of a shear") {
   // exp([[0, -t], [t, 0]]) turns by t; a shear's series ends after its first power.
   const double t = 2;

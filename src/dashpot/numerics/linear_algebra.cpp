@@ -1,7 +1,10 @@
 #include "dashpot/numerics/linear_algebra.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -57,6 +60,53 @@ MatrixXcd stable_subspace(const MatrixXd& hamiltonian) {
   return stable;
 }
 
+/// Factors of a small matrix by plain loops: a vehicle's integrator solves with one of five rows
+/// six times per step, which Eigen's blocks and panels only delay. In Eigen's own order of sums,
+/// and so the same to the bit.
+class SmallFactors {
+ public:
+  static constexpr std::size_t kMost = 8;  // one panel of Eigen's
+
+  void factorise(const double* columns, std::size_t n) {
+    n_ = n;
+    std::copy_n(columns, n * n, lu_.begin());
+    for (std::size_t k = 0; k < n; ++k) {
+      // The largest number of the column becomes the pivot.
+      double* const column = &lu_[k * n];
+      std::size_t pivot = k;
+      for (std::size_t i = k + 1; i < n; ++i)
+        if (std::abs(column[i]) > std::abs(column[pivot])) pivot = i;
+      pivots_[k] = pivot;
+      if (column[pivot] != 0) {
+        for (std::size_t j = 0; pivot != k && j < n; ++j)
+          std::swap(lu_[j * n + k], lu_[j * n + pivot]);
+        for (std::size_t i = k + 1; i < n; ++i) column[i] /= column[k];
+      }
+
+      // What is left of the columns behind it.
+      for (std::size_t j = k + 1; j < n; ++j)
+        for (std::size_t i = k + 1; i < n; ++i) lu_[j * n + i] -= lu_[j * n + k] * column[i];
+    }
+  }
+
+  void solve(const double* right, double* x) const {
+    std::copy_n(right, n_, x);
+    for (std::size_t k = 0; k < n_; ++k) std::swap(x[k], x[pivots_[k]]);
+    for (std::size_t k = 0; k < n_; ++k)
+      for (std::size_t i = k + 1; x[k] != 0 && i < n_; ++i) x[i] -= x[k] * lu_[k * n_ + i];
+    for (std::size_t k = n_; k-- > 0;) {
+      if (x[k] == 0) continue;
+      x[k] /= lu_[k * n_ + k];
+      for (std::size_t i = 0; i < k; ++i) x[i] -= x[k] * lu_[k * n_ + i];
+    }
+  }
+
+ private:
+  std::size_t n_ = 0;
+  std::array<double, kMost * kMost> lu_{};  ///< column by column
+  std::array<std::size_t, kMost> pivots_{};
+};
+
 }  // namespace
 
 std::vector<double> product(std::span<const double> a, std::span<const double> b,
@@ -107,7 +157,9 @@ SmallMatrix<7, 7> exponential(const SmallMatrix<7, 7>& matrix) {
 }
 
 struct Factors::Decomposition {
-  Eigen::PartialPivLU<MatrixXd> lu;
+  Eigen::PartialPivLU<MatrixXd> lu;  ///< of a larger matrix
+  SmallFactors small;
+  bool is_small = false;
 };
 
 Factors::Factors() : decomposition_(std::make_unique<Decomposition>()) {}
@@ -115,12 +167,21 @@ Factors::~Factors() = default;
 
 void Factors::factorise_columns(std::span<const double> matrix, std::size_t n) {
   assert(matrix.size() == n * n);
+  decomposition_->is_small = n <= SmallFactors::kMost;
+  if (decomposition_->is_small) {
+    decomposition_->small.factorise(matrix.data(), n);
+    return;
+  }
   decomposition_->lu.compute(
       MatrixXd::Map(matrix.data(), static_cast<Index>(n), static_cast<Index>(n)));
 }
 
 void Factors::solve(std::span<const double> right, std::span<double> x) const {
   assert(x.size() == right.size());
+  if (decomposition_->is_small) {
+    decomposition_->small.solve(right.data(), x.data());
+    return;
+  }
   VectorXd::Map(x.data(), static_cast<Index>(x.size())) =
       decomposition_->lu.solve(as_vector(right));
 }

@@ -17,21 +17,32 @@ double output_step_of(const Setting& setting, const SimulateOptions& options) {
   return setting.controller ? options.limits.sample_time : 1e-3;
 }
 
+/// Whether a controller may look at the plant's state: it is one of those that say so, or none of
+/// those that are known by name.
+bool may_need_plant_state(const ControlDescription& controller) {
+  const auto& choices = controller.choices;
+  if (!choices.empty()) return std::ranges::any_of(choices, may_need_plant_state);
+  const auto laws = control_laws();
+  const auto law = std::ranges::find(laws, controller.law, &ControlLaw::name);
+  return law == laws.end() || (*law)->needs_plant_state;
+}
+
 /// Instants k dt, without the sum of their rounding.
 class Clock {
  public:
   explicit Clock(double dt) : dt_(dt) {}
-  double next() const { return dt_ > 0 ? dt_ * static_cast<double>(ticks_) : INFINITY; }
+  double next() const { return next_; }
   /// Whether this is its instant, to a rounding; then it goes on.
   bool strikes(double t) {
-    if (!(t >= next() - 1e-9 * dt_)) return false;
-    ++ticks_;
+    if (!(t >= next_ - 1e-9 * dt_)) return false;
+    next_ = dt_ * static_cast<double>(++ticks_);
     return true;
   }
 
  private:
   double dt_;
   std::size_t ticks_ = 0;
+  double next_ = dt_ > 0 ? 0 : INFINITY;
 };
 
 class Simulation {
@@ -52,8 +63,12 @@ class Simulation {
         signals_(setting.plant.struts.size()),
         demands_(signals_.size()),
         road_(setting.plant.tyres.size()),
+        motions_(signals_.size()),
         controller_state_(setting.controller ? setting.controller->state_size() : 0) {
-    if (setting.controller) setting.controller->reset(controller_state_);
+    if (setting.controller) {
+      setting.controller->reset(controller_state_);
+      needs_plant_state_ = may_need_plant_state(setting.controller->description());
+    }
 
     // Instants at which the road jumps under some tyre.
     for (const Tyre& tyre : setting.plant.tyres)
@@ -72,7 +87,7 @@ class Simulation {
       meet_jumps();
       const bool samples_now = samples.strikes(state_.time);
       const bool writes_now = output.strikes(state_.time);
-      if (samples_now || writes_now) meet_road();
+      if (samples_now || writes_now) look();
       if (samples_now) control();
       if (writes_now) write();
       if (state_.time >= end * (1 - 1e-12)) break;
@@ -99,21 +114,29 @@ class Simulation {
     if (jump_ != before) integrator_.refresh(state_);
   }
 
-  /// The road as samples and outputs at this instant have it.
-  void meet_road() {
-    for (std::size_t w = 0; w < road_.size(); ++w) road_[w] = forces_.foot(w, state_.time);
+  /// The road and the struts' motions as samples and outputs at this instant have them.
+  void look() {
+    const bool known = state_.road_time == state_.time;
+    forces_.with_sizes([&](auto sizes) {
+      for (std::size_t w = 0; w < sizes.tyres; ++w)
+        road_[w] = known ? state_.road[w] : forces_.foot(w, state_.time);
+      for (std::size_t s = 0; s < sizes.struts; ++s)
+        motions_[s] = forces_.strut_motion(sizes, s, state_.time, state_.x.data(),
+                                           state_.dampers[s].current());
+    });
   }
 
   void control() {
-    const Plant& plant = setting_.plant;
-    const std::size_t n = plant.size();
+    const std::size_t n = setting_.plant.size();
 
     // Signals as the sensors see them; ideal ones give the plant's state as well.
-    for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s] = signals_of(s);
+    forces_.with_sizes([&](auto sizes) {
+      for (std::size_t s = 0; s < sizes.struts; ++s) signals_[s] = signals_of(sizes, s);
+    });
     sensors_.measure(signals_);
     std::vector<double>& x = plant_state_;
     x.clear();
-    if (sensors_.ideal()) {
+    if (sensors_.ideal() && needs_plant_state_) {
       x = state_.x;
       resting_.resize(n);
       forces_.resting_place(road_, resting_);
@@ -123,31 +146,32 @@ class Simulation {
     // Each demand on its way to a current; forces are others where one has changed.
     setting_.controller->step(signals_, x, controller_state_, demands_);
     bool changed = false;
-    for (std::size_t s = 0; s < signals_.size(); ++s)
-      changed |= state_.dampers[s].demand(
-          demands_[s],
-          {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
-          signals_[s].force);
+    forces_.with_sizes([&](auto sizes) {
+      for (std::size_t s = 0; s < sizes.struts; ++s)
+        changed |= state_.dampers[s].demand(
+            demands_[s],
+            {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
+            signals_[s].force);
+    });
     if (changed) integrator_.refresh(state_);
   }
 
-  StrutSignals signals_of(std::size_t s) const {
-    const Strut& strut = setting_.plant.struts[s];
-    const std::size_t n = setting_.plant.size();
-    const double current = state_.dampers[s].current();
-    const DamperInput motion = forces_.strut_motion(s, state_.time, state_.x, current);
-    return {.body_velocity = along(strut.body_row, state_.x.data() + n),
-            .body_acceleration = along(strut.body_row, state_.acceleration.data()),
-            .wheel_velocity = along(strut.body_row, state_.x.data() + n) - motion.velocity,
-            .deflection = motion.displacement,
-            .deflection_velocity = motion.velocity,
+  template <class Sizes>
+  StrutSignals signals_of(Sizes sizes, std::size_t s) const {
+    const std::vector<double>& row = setting_.plant.struts[s].body_row;
+    const double body_velocity = along(sizes, row, state_.x.data() + sizes.coordinates);
+    return {.body_velocity = body_velocity,
+            .body_acceleration = along(sizes, row, state_.acceleration.data()),
+            .wheel_velocity = body_velocity - motions_[s].velocity,
+            .deflection = motions_[s].displacement,
+            .deflection_velocity = motions_[s].velocity,
             .force = state_.damper_forces[s],
-            .current = current};
+            .current = motions_[s].current};
   }
 
   void write() {
     options_.monitor.check();
-    writer_.write(state_, road_);
+    writer_.write(state_, road_, motions_);
   }
 
   void finish(Trace& trace) {
@@ -190,9 +214,11 @@ class Simulation {
   TraceWriter writer_;
   std::vector<StrutSignals> signals_;
   std::vector<DamperDemand> demands_;
-  std::vector<FootMotion> road_;  ///< under each tyre, at the last sample or output
+  std::vector<FootMotion> road_;      ///< under each tyre, at the last sample or output
+  std::vector<DamperInput> motions_;  ///< of each strut there
   std::vector<double> controller_state_, plant_state_, resting_, jumps_;
   std::size_t jump_ = 0;
+  bool needs_plant_state_ = false;
 };
 
 /// Refuses before it begins what would take hours, or more memory than there is.

@@ -27,7 +27,7 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
     : plant_(plant), forces_(forces), ground_(ground) {
   const auto channel = [&](const std::string& name, const std::string& unit) {
     record_.channels.push_back({.name = name, .unit = unit, .origin = "simulated"});
-    record_.channels.back().samples.reserve(samples);
+    record_.channels.back().samples.reserve(samples + kRows);
   };
 
   // Channels in the order in which write() adds their samples.
@@ -54,7 +54,8 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
   }
   if (!plant.ground.empty()) channel("ground_acceleration", "m/s^2");
 
-  record_.time.reserve(samples);
+  record_.time.reserve(samples + kRows);
+  columns_.resize(1 + record_.channels.size());
   record_.name = plant.name;
   record_.condition = ground.description();
   record_.source = "simulation";
@@ -72,37 +73,63 @@ double stops_met(const Record& trace, const Plant& plant, std::size_t first) {
   });
 }
 
-void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road) {
-  const std::size_t n = plant_.size();
-  const double *q = state.x.data(), *v = q + n;
-  record_.time.push_back(state.time);
+void TraceWriter::make_room() {
+  const auto grow = [](std::vector<double>& samples) {
+    samples.resize(samples.size() + kRows);
+    return &*(samples.end() - kRows);
+  };
+  columns_[0] = grow(record_.time);
+  for (std::size_t c = 0; c < record_.channels.size(); ++c)
+    columns_[1 + c] = grow(record_.channels[c].samples);
+  row_ = 0;
+}
 
-  // Samples in the order of the channels.
-  place_ = 0;
-  for (std::size_t k = 0; k < n; ++k) {
+Record TraceWriter::take() {
+  const std::size_t written = record_.time.size() + row_ - kRows;
+  record_.time.resize(written);
+  for (Channel& channel : record_.channels) channel.samples.resize(written);
+  return std::move(record_);
+}
+
+template <class Sizes>
+void TraceWriter::write_row(Sizes sizes, const PlantState& state, std::span<const FootMotion> road,
+                            std::span<const DamperInput> motions) {
+  const double *q = state.x.data(), *v = q + sizes.coordinates, *a = state.acceleration.data();
+  double* const* column = columns_.data();
+  const auto add = [&column, row = row_](double value) { (*column++)[row] = value; };
+
+  // The time, then samples in the order of the channels.
+  add(state.time);
+  for (std::size_t k = 0; k < sizes.coordinates; ++k) {
     add(q[k]);
     add(v[k]);
-    add(state.acceleration[k]);
+    add(a[k]);
   }
   for (const PlantPoint& point : plant_.points) {
-    add(along(point.row, q));
-    add(along(point.row, state.acceleration.data()));
+    add(along(sizes, point.row, q));
+    add(along(sizes, point.row, a));
   }
-  for (std::size_t s = 0; s < plant_.struts.size(); ++s) {
+  for (std::size_t s = 0; s < sizes.struts; ++s) {
     const DamperState& damper = state.dampers[s];
-    const DamperInput motion = forces_.strut_motion(s, state.time, state.x, damper.current());
-    add(motion.displacement);
-    add(motion.velocity);
+    add(motions[s].displacement);
+    add(motions[s].velocity);
     add(state.damper_forces[s]);
     add(damper.current());
     add(damper.command());
   }
-  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
+  for (std::size_t w = 0; w < sizes.tyres; ++w) {
     add(road[w].height);
-    add(along(plant_.tyres[w].row, q) - road[w].height);
-    add(forces_.tyre_load(w, road[w], state.x));
+    add(along(sizes, plant_.tyres[w].row, q) - road[w].height);
+    add(forces_.tyre_load(sizes, w, road[w], q));
   }
   if (!plant_.ground.empty()) add(ground_.acceleration(state.time));
+}
+
+void TraceWriter::write(const PlantState& state, std::span<const FootMotion> road,
+                        std::span<const DamperInput> motions) {
+  if (row_ == kRows) make_room();
+  forces_.with_sizes([&](auto sizes) { write_row(sizes, state, road, motions); });
+  ++row_;
 }
 
 }  // namespace dashpot

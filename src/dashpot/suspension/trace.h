@@ -14,18 +14,26 @@ class TraceWriter {
  public:
   TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,
               std::size_t samples);
-  /// road: under the plant's tyres, at the state's instant.
-  void write(const PlantState& state, std::span<const FootMotion> road);
-  Record take() { return std::move(record_); }
+  /// At the state's instant, road: under the plant's tyres; motions: of its struts.
+  void write(const PlantState& state, std::span<const FootMotion> road,
+             std::span<const DamperInput> motions);
+  Record take();
 
  private:
-  void add(double value) { record_.channels[place_++].samples.push_back(value); }
+  void make_room();
+  /// write() of a plant with these sizes, into a room for one more sample.
+  template <class Sizes>
+  void write_row(Sizes sizes, const PlantState& state, std::span<const FootMotion> road,
+                 std::span<const DamperInput> motions);
 
   const Plant& plant_;
   const PlantForces& forces_;
   const GroundMotion& ground_;
   Record record_;
-  std::size_t place_ = 0;
+  /// The next kRows samples of the time and of each channel, of which row_ are written.
+  static constexpr std::size_t kRows = 64;
+  std::vector<double*> columns_;
+  std::size_t row_ = kRows;
 };
 
 /// Shares of the samples from `first` on: in which some tyre has no load or pulls; in which some

@@ -45,3 +45,32 @@ TEST_CASE("a force that jumps in the middle of the stroke changes over a short w
   CHECK_CLOSE(at(*soft, 0.5 * kSideWay), 0.5 * 700 * std::tanh(0.9), 1e-12, 0);
   for (const double x : {-0.01, -kSideWay, kSideWay, 0.01}) CHECK(at(*soft, x) == at(*kwok, x));
 }
+
+TEST_CASE("a softened law with its parameters at hand is the softened model to the bit") {
+  // Parameters that follow the current, so that the model finds them anew at each call.
+  Dependence parameters;
+  for (const ParamInfo& info : find_law("tanh_kwok").params) {
+    parameters.forms.push_back(info.form);
+    parameters.coefficients.emplace_back(coefficient_count(info.form), info.value);
+  }
+  const auto kwok =
+      std::make_shared<LawModel>(find_law("tanh_kwok"), parameters, DriveUnit::Ampere, 0);
+  const auto soft = with_soft_sides(kwok);
+  const SoftLaw law = soft_law(*soft), bare = soft_law(*kwok);
+  REQUIRE(law.law);
+  CHECK(law.is_soft);
+  CHECK(!bare.is_soft);
+
+  // Within the middle, at its end and beyond.
+  std::array<double, kMaxParams> at{};
+  kwok->parameters_at(0.7, at.data());
+  for (const double x : {0.0, 0.3 * kSideWay, -0.9 * kSideWay, kSideWay, -0.02}) {
+    const DamperInput input{x, 0.1, 0.7};
+    CHECK(law.flow(at.data(), input, nullptr, nullptr) == soft->flow(input, {}, {}));
+    CHECK(bare.flow(at.data(), input, nullptr, nullptr) == kwok->flow(input, {}, {}));
+  }
+
+  // Neither a law with a lag of its own nor two middles are one.
+  CHECK(!soft_law(LawModel(find_law("tanh_kwok"), parameters, DriveUnit::Ampere, 50)).law);
+  CHECK(!soft_law(*with_soft_friction(soft)).law);
+}

@@ -74,19 +74,29 @@ DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limit
       driver_state_(Driver::kStates),
       command_(damper.current) {
   driver_.rest(damper.current, driver_state_);
+  note_rest();
   damper.model->rest(damper.at_damper({deflection, 0, damper.current}), state_);
 }
 
 bool DamperState::demand(const DamperDemand& demand, const DamperInput& now, double force) {
+  // A damping or a current that stays asks for the same command, whatever the motion.
+  const bool stays = demand.kind == demand_.kind && demand.value == demand_.value &&
+                     (demand.kind == DamperDemand::Kind::Current ||
+                      (demand.kind == DamperDemand::Kind::Damping && !damper_->inverse));
+  if (is_at_rest_ && stays) return false;
+
+  demand_ = demand;
   const double before = command_;
   command_ = path_.command(demand, now, force);
+  if (is_at_rest_ && command_ == before) return false;
   driver_.command(command_, driver_state_);
+  note_rest();
   return command_ != before;
 }
 
 void DamperState::advance(const DamperInput& from, const DamperInput& to, double dt) noexcept {
   damper_->model->advance(damper_->at_damper(from), damper_->at_damper(to), dt, state_);
-  driver_.advance(dt, driver_state_);
+  advance_coil(dt);
 }
 
 double DamperState::current_after(double dt) const noexcept {

@@ -1,13 +1,14 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "dashpot/controller.h"
-#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/driver.h"
 #include "dashpot/mounted_damper.h"
+#include "dashpot/suspension/dampers/soft_friction.h"
 
 namespace dashpot {
 
@@ -52,9 +53,8 @@ class DamperState {
               std::span<double> rates) const noexcept {
     return damper_->at_strut(damper_->model->flow(damper_->at_damper(input), state, rates));
   }
-  /// The same of a damper that is this law, without a lag, with its parameters at the present
-  /// current.
-  double flow(const LawModel& law, const double* parameters, const DamperInput& input,
+  /// The same of a damper that is this law, with its parameters at the present current.
+  double flow(const SoftLaw& law, const double* parameters, const DamperInput& input,
               const double* state, double* rates) const noexcept {
     return damper_->at_strut(law.flow(parameters, damper_->at_damper(input), state, rates));
   }
@@ -69,23 +69,40 @@ class DamperState {
     std::copy_n(state, state_.size(), state_.begin());
   }
   /// The driver alone, without the model.
-  void advance_coil(double dt) noexcept { driver_.advance(dt, driver_state_); }
+  void advance_coil(double dt) noexcept {
+    if (is_at_rest_) return;
+    driver_.advance(dt, driver_state_);
+    note_rest();
+  }
   /// Whether the coil's current stays as it is while no command comes.
-  bool is_steady() const noexcept { return driver_.is_steady(driver_state_); }
+  bool is_steady() const noexcept { return is_at_rest_ || driver_.is_steady(driver_state_); }
   /// s until the current's course has a corner by itself: infinite where none comes.
-  double next_corner() const noexcept { return driver_.next_corner(driver_state_); }
-  void meet_corner() noexcept { driver_.meet_corner(driver_state_); }
+  double next_corner() const noexcept {
+    return is_at_rest_ ? std::numeric_limits<double>::infinity()
+                       : driver_.next_corner(driver_state_);
+  }
+  void meet_corner() noexcept {
+    driver_.meet_corner(driver_state_);
+    note_rest();
+  }
   double current() const noexcept { return driver_.current(driver_state_); }
   /// The coil's current dt s from now.
   double current_after(double dt) const noexcept;
   double command() const noexcept { return command_; }
 
  private:
+  void note_rest() noexcept {
+    is_at_rest_ = driver_.options().period == 0 && driver_.is_steady(driver_state_);
+  }
+
   const MountedDamper* damper_;
   CommandPath path_;
   Driver driver_;
   std::vector<double> state_, driver_state_;
   double command_ = 0;
+  DamperDemand demand_{DamperDemand::Kind::Force};  ///< the last one; at first none that stays
+  /// Neither time nor the same command again changes the driver's state.
+  bool is_at_rest_ = false;
 };
 
 }  // namespace dashpot

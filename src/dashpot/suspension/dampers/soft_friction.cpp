@@ -10,8 +10,8 @@ namespace {
 /// A model whose force is a straight line where one of its inputs is within `reach` of 0.
 class Softened final : public DamperModel {
  public:
-  Softened(std::shared_ptr<const DamperModel> model, double DamperInput::* what, double reach)
-      : model_(std::move(model)), what_(what), reach_(reach) {}
+  Softened(std::shared_ptr<const DamperModel> model, const SoftMiddle& middle)
+      : model_(std::move(model)), middle_(middle) {}
 
   ModelKind kind() const override { return model_->kind(); }
   std::string name() const override { return model_->name(); }
@@ -26,38 +26,34 @@ class Softened final : public DamperModel {
     model_->advance(from, to, dt, state);
   }
   double force(const DamperInput& input, std::span<const double> state) const noexcept override {
-    return is_within(input) ? between_ends(input, state) : model_->force(input, state);
+    return middle_.has(input) ? between_ends(input, state) : model_->force(input, state);
   }
   bool flows() const noexcept override { return model_->flows(); }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override {
     const double force = model_->flow(input, state, rates);
-    return is_within(input) ? between_ends(input, state) : force;
+    return middle_.has(input) ? between_ends(input, state) : force;
   }
   bool has_diverged(std::span<const double> state) const noexcept override {
     return model_->has_diverged(state);
   }
   double feedback_step() const noexcept override { return model_->feedback_step(); }
   std::unique_ptr<DamperModel> with_offset(double newton) const override {
-    return std::make_unique<Softened>(model_->with_offset(newton), what_, reach_);
+    return std::make_unique<Softened>(model_->with_offset(newton), middle_);
   }
   Value to_json() const override { return model_->to_json(); }
 
+  const DamperModel& model() const { return *model_; }
+  const SoftMiddle& middle() const { return middle_; }
+
  private:
-  bool is_within(const DamperInput& input) const noexcept {
-    return std::abs(input.*what_) < reach_;
-  }
-  double between_ends(DamperInput at, std::span<const double> state) const noexcept {
-    const double share = 0.5 + 0.5 * at.*what_ / reach_;
-    at.*what_ = -reach_;
-    const double before = model_->force(at, state);
-    at.*what_ = reach_;
-    return before + share * (model_->force(at, state) - before);
+  double between_ends(const DamperInput& input, std::span<const double> state) const noexcept {
+    return middle_.between_ends(input,
+                                [&](const DamperInput& at) { return model_->force(at, state); });
   }
 
   std::shared_ptr<const DamperModel> model_;
-  double DamperInput::* what_;
-  double reach_;
+  SoftMiddle middle_;
 };
 
 /// Whether the force jumps where that input passes 0: it changes over next to no way, and over a
@@ -85,6 +81,22 @@ bool jumps(const DamperModel& model, double DamperInput::* what, double current_
 
 }  // namespace
 
+SoftLaw soft_law(const DamperModel& model) {
+  const auto* softened = model_as<Softened>(model);
+  const auto* law = model_as<LawModel>(softened ? softened->model() : model);
+  if (!law || law->lag_rate() > 0) return {};
+  return softened ? SoftLaw{law, true, softened->middle()} : SoftLaw{law};
+}
+
+double SoftLaw::in_middle(const double* parameters, const DamperInput& input,
+                          const double* state) const noexcept {
+  const Law& bare = law->law();
+  return middle.between_ends(input, [&](const DamperInput& at) {
+    const double force = bare.force(parameters, at.displacement, at.velocity, state);
+    return bare.side_row > 0 ? force + side_force(bare, parameters, at.velocity) : force;
+  });
+}
+
 bool jumps_at_rest(const DamperModel& model, double current_min, double current_max) {
   return jumps(model, &DamperInput::velocity, current_min, current_max);
 }
@@ -94,11 +106,13 @@ bool jumps_in_middle(const DamperModel& model, double current_min, double curren
 }
 
 std::shared_ptr<const DamperModel> with_soft_friction(std::shared_ptr<const DamperModel> model) {
-  return std::make_shared<Softened>(std::move(model), &DamperInput::velocity, kFrictionSpeed);
+  return std::make_shared<Softened>(std::move(model),
+                                    SoftMiddle{&DamperInput::velocity, kFrictionSpeed});
 }
 
 std::shared_ptr<const DamperModel> with_soft_sides(std::shared_ptr<const DamperModel> model) {
-  return std::make_shared<Softened>(std::move(model), &DamperInput::displacement, kSideWay);
+  return std::make_shared<Softened>(std::move(model),
+                                    SoftMiddle{&DamperInput::displacement, kSideWay});
 }
 
 }  // namespace dashpot

@@ -62,9 +62,9 @@ typedef double Places __attribute__((vector_size(kTogether * sizeof(double))));
 /// the first points of all stand side by side.
 [[gnu::always_inline]] inline Cubic<Places> cubics_at(const double* z, const int* points,
                                                       const double* shares) {
-  Places of[kTogether], u;
+  Places of[kTogether];
   for (int n = 0; n < kTogether; ++n) std::memcpy(&of[n], z + points[n], sizeof of[n]);
-  std::memcpy(&u, shares, sizeof u);
+  const Places u{shares[0], shares[1], shares[2], shares[3]};
   const Places a = __builtin_shufflevector(of[0], of[1], 0, 4, 2, 6),
                b = __builtin_shufflevector(of[0], of[1], 1, 5, 3, 7),
                c = __builtin_shufflevector(of[2], of[3], 0, 4, 2, 6),
@@ -74,9 +74,11 @@ typedef double Places __attribute__((vector_size(kTogether * sizeof(double))));
       __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7), u);
 }
 
-/// Heights and rates at these places, several side by side.
+/// Heights and rates at these places, several side by side. kCount: how many, where that is known.
+template <std::size_t kCount = std::dynamic_extent>
 [[gnu::always_inline]] inline void motions_at(const TrackPoints& track, const int* points,
-                                              const double* shares, std::span<FootMotion> out) {
+                                              const double* shares,
+                                              std::span<FootMotion, kCount> out) {
   const int count = static_cast<int>(out.size());
   int n = 0;
   for (; n + kTogether <= count; n += kTogether) {
@@ -116,18 +118,22 @@ void pass_over(const TrackPoints& track, double begin, double step, std::span<Fo
 #endif
 void meet_at(const TrackPoints& track, std::span<const double> t, double behind,
              std::span<FootMotion> out) {
-  constexpr std::size_t kChunk = 8;
-  int points[kChunk];
-  double shares[kChunk];
-  for (std::size_t first = 0; first < out.size(); first += kChunk) {
-    const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
-    for (std::size_t n = 0; n < some.size(); ++n) {
-      const TrackPlace place = place_at(track, track.per_second * t[first + n] - behind);
+  constexpr std::size_t kStep = 5;  // an integrator's step asks for so many
+  const auto meet = [&](auto at, auto motions) __attribute__((always_inline)) {
+    int points[kStep];
+    double shares[kStep];
+    for (std::size_t n = 0; n < motions.size(); ++n) {
+      const TrackPlace place = place_at(track, track.per_second * at[n] - behind);
       points[n] = place.point;
       shares[n] = place.share;
     }
-    motions_at(track, points, shares, some);
-  }
+    motions_at(track, points, shares, motions);
+  };
+
+  std::size_t first = 0;
+  for (; first + kStep <= out.size(); first += kStep)
+    meet(t.subspan(first).first<kStep>(), out.subspan(first).first<kStep>());
+  meet(t.subspan(first), out.subspan(first));
 }
 
 class DrivenRoad final : public GroundMotion {

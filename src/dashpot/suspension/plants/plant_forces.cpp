@@ -43,16 +43,6 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   }
 }
 
-double PlantForces::tyre_load(std::size_t tyre, const FootMotion& ground,
-                              std::span<const double> x) const noexcept {
-  // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
-  // road's push, which rounds differently.
-  const Tyre& w = plant_.tyres[tyre];
-  const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +
-                      w.damping * (ground.velocity - along(w.row, x.data() + plant_.size()));
-  return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
-}
-
 void PlantForces::add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
                          std::span<double> g) const noexcept {
   for (double& value : g) value = 0;

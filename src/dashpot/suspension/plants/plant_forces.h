@@ -20,6 +20,15 @@ struct QuarterCarSizes {
   static constexpr std::size_t coordinates = 2, struts = 1, tyres = 1;
 };
 
+/// along(row, q) of a plant with these sizes.
+template <class Sizes>
+double along(Sizes sizes, const std::vector<double>& row, const double* q) noexcept {
+  const double* const factors = row.data();
+  double sum = 0;
+  for (std::size_t k = 0; k < sizes.coordinates; ++k) sum += factors[k] * q[k];
+  return sum;
+}
+
 /// Forces of a plant on its ground at an instant t, s, in SI. x = [q, q']. Plant and ground must
 /// outlive it. Evaluations allocate nothing.
 class PlantForces {
@@ -35,8 +44,9 @@ class PlantForces {
   /// The same at several instants at once.
   void feet(std::size_t tyre, std::span<const double> t, std::span<FootMotion> out) const noexcept;
   /// N, of the tyre on the road; 0 where contact is lost and tyres may lift.
-  double tyre_load(std::size_t tyre, const FootMotion& ground,
-                   std::span<const double> x) const noexcept;
+  template <class Sizes>
+  double tyre_load(Sizes sizes, std::size_t tyre, const FootMotion& ground,
+                   const double* x) const noexcept;
 
   /// g of M q'' + C q' + K q = g, N: all forces that are not linear in x, with these of the struts.
   void add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
@@ -141,6 +151,18 @@ void PlantForces::accelerate(Sizes sizes, double t, const double* x, const doubl
     for (std::size_t i = 0; i < sizes.coordinates; ++i)
       out[i] += by_tyre_[i * sizes.tyres + w] * pushed;
   }
+}
+
+template <class Sizes>
+double PlantForces::tyre_load(Sizes sizes, std::size_t tyre, const FootMotion& ground,
+                              const double* x) const noexcept {
+  // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
+  // road's push, which rounds differently.
+  const Tyre& w = plant_.tyres[tyre];
+  const double height = along(sizes, w.row, x), rate = along(sizes, w.row, x + sizes.coordinates);
+  const double load =
+      w.static_load + w.stiffness * (ground.height - height) + w.damping * (ground.velocity - rate);
+  return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
 }
 
 inline double PlantForces::push(std::size_t which, const FootMotion& ground,

@@ -47,7 +47,7 @@ class ExplicitSteps final : public StepMethod {
     // The whole stretch is tried first; later ones start with the length that the last one
     // proposed.
     if (next_ == 0) next_ = length;
-    equations_.read(state, y_.data());
+    equations_.read_currents(state);
     Allowance least(length);
     for (double done = 0; done < length;) {
       // One step, to the end of the stretch at most, and the length that its error allows.
@@ -145,55 +145,65 @@ class ExplicitSteps final : public StepMethod {
       stage<4>(h, trial_);
       stage<5>(h, trial_);
       stage<6>(h, end_);
-      for (std::size_t i = 0; i < size_; ++i) off_[i] = off(k_, i);
+      for (std::size_t i = 0; i < size_; ++i)
+        off_[i] = error_of([&](std::size_t s) { return k_[s][i]; });
     }
   }
-  /// The same of a RoadCar, whose slopes stay in registers from stage to stage.
+  /// The same of a RoadCar, whose slopes stay in one place from stage to stage.
   template <bool kFollows>
-  void attempt_straight(const RoadCar& car, double h) {
-    double k[kStages][kSize], y[kSize], at[kSize];
+  [[gnu::flatten]] void attempt_straight(const RoadCar& car, double h) {
+    using State = RoadCar::State<kSize - 4>;
+    State k[kStages], y, at;
     RoadCar::Forces forces;
-    for (std::size_t i = 0; i < kSize; ++i) {
-      y[i] = y_[i];
-      k[0][i] = k_[0][i];
-    }
+    y.get(y_.data());
+    k[0].get(k_[0].data());
 
     // Stage by stage: there from the slopes before, and the slope there.
-    const auto stage = [&]<std::size_t... kBefore>(
+    const auto stage = [&]<std::size_t kStage, std::size_t... kBefore>(
                            std::index_sequence<kBefore...>) __attribute__((always_inline)) {
-      constexpr std::size_t kStage = sizeof...(kBefore);
-      const double* weights = Method::kFrom[kStage];
-      for (std::size_t i = 0; i < kSize; ++i)
-        at[i] = y[i] + h * ((weights[kBefore] * k[kBefore][i]) + ...);
-      forces = car.rates<kSize, kFollows>(equations_.law_parameters(instant_of(kStage)),
-                                          equations_.foot(instant_of(kStage)), at, k[kStage]);
+      constexpr const auto& kWeights = Method::kFrom[kStage];
+      at.heights = y.heights + h * ((both(kWeights[kBefore]) * k[kBefore].heights) + ...);
+      at.speeds = y.speeds + h * ((both(kWeights[kBefore]) * k[kBefore].speeds) + ...);
+      for (std::size_t i = 0; i < kSize - 4; ++i)
+        at.law[i] = y.law[i] + h * ((kWeights[kBefore] * k[kBefore].law[i]) + ...);
+      forces = car.rates<kFollows>(equations_.law_parameters(instant_of(kStage)),
+                                   equations_.foot(instant_of(kStage)), at, k[kStage]);
       if constexpr (kFollows && (kStage == kEarly || kStage == kLate)) note_speeds(kStage);
     };
-    stage(std::make_index_sequence<1>());
-    stage(std::make_index_sequence<2>());
-    stage(std::make_index_sequence<3>());
-    stage(std::make_index_sequence<4>());
-    stage(std::make_index_sequence<5>());
-    stage(std::make_index_sequence<6>());
+    stage.template operator()<1>(std::index_sequence<0>());
+    stage.template operator()<2>(std::index_sequence<0, 1>());
+    stage.template operator()<3>(std::index_sequence<0, 1, 2>());
+    stage.template operator()<4>(std::index_sequence<0, 1, 2, 3>());
+    stage.template operator()<5>(std::index_sequence<0, 1, 2, 3, 4>());
+    static_assert(Method::kFrom[6][1] == 0);
+    stage.template operator()<6>(std::index_sequence<0, 2, 3, 4, 5>());
 
     // Its end, and what the next step wants to know.
-    for (std::size_t i = 0; i < kSize; ++i) {
-      end_[i] = at[i];
-      k_[kStages - 1][i] = k[kStages - 1][i];
-      off_[i] = off(k, i);
-    }
+    at.put(end_.data());
+    k[kStages - 1].put(k_[kStages - 1].data());
+    State off;
+    static_assert(Method::kError[1] == 0);
+    off.heights = error_of([&](std::size_t s) { return k[s].heights; });
+    off.speeds = error_of([&](std::size_t s) { return k[s].speeds; });
+    for (std::size_t i = 0; i < kSize - 4; ++i)
+      off.law[i] = error_of([&](std::size_t s) { return k[s].law[i]; });
+    off.put(off_.data());
     equations_.put_forces(forces);
   }
-  /// |y_5 - y_4| / h of component i.
-  template <class Slopes>
-  [[gnu::always_inline]] static inline double off(const Slopes& k, std::size_t i) {
-    double sum = 0;
-    for (std::size_t s = 0; s < kStages; ++s) sum += Method::kError[s] * k[s][i];
-    return std::abs(sum);
+  /// The same number for body and wheel.
+  static constexpr BodyAndWheel both(double number) { return BodyAndWheel{number, number}; }
+  /// (y_5 - y_4) / h from the slopes, slope_of(stage).
+  template <class SlopeOf>
+  [[gnu::always_inline]] static inline auto error_of(SlopeOf slope_of) {
+    auto sum = Method::kError[0] * slope_of(0);
+    for (std::size_t s = 2; s < kStages; ++s) sum += Method::kError[s] * slope_of(s);
+    return sum;
   }
   /// Error of the step, in tolerances; that of a loop as one of its z.
   double distance(double h) const {
-    const StepEnds ends{equations_.coordinates(), y_, end_};
+    constexpr std::size_t kRoadCar = QuarterCarSizes::coordinates;
+    const std::size_t n = kSize > 0 ? kRoadCar : equations_.coordinates();
+    const StepEnds ends{n, y_, end_};
     const auto loop_at = [&](std::size_t k) {
       std::size_t l = 0;
       while (l < turns_.size() && equations_.loops()[l].place != k) ++l;
@@ -204,10 +214,11 @@ class ExplicitSteps final : public StepMethod {
     return error_in_tolerances(
         ends, options_,
         [&](std::size_t k) {
-          const std::size_t l = loop_at(k);
-          if (l == turns_.size()) return h * off_[k];
+          const double off = h * std::abs(off_[k]);
+          const std::size_t l = k < 2 * n ? turns_.size() : loop_at(k);
+          if (l == turns_.size()) return off;
           const FollowedLoop& loop = equations_.loops()[l];
-          return loop.path.error(h * off_[k], turns_[l].steep, loop.steep);
+          return loop.path.error(off, turns_[l].steep, loop.steep);
         },
         [&](std::size_t k) {
           const std::size_t l = loop_at(k);
@@ -264,7 +275,7 @@ class ExplicitSteps final : public StepMethod {
   PlantEquations equations_;
   IntegratorOptions options_;
   std::size_t size_;
-  Row y_, trial_, end_, off_;   ///< off_: |y_5 - y_4| / h of the last try
+  Row y_, trial_, end_, off_;   ///< off_: (y_5 - y_4) / h of the last try
   std::array<Row, kStages> k_;  ///< slopes, stage by stage; the first is that of y_
   std::vector<Turn> turns_;     ///< one per loop of the equations
   double next_ = 0;             ///< s, the length to try next

@@ -12,7 +12,8 @@ PlantState PlantState::at_rest(const Plant& plant, const std::vector<MountedDamp
   PlantState state{.x = std::vector<double>(2 * plant.size()),
                    .damper_forces = std::vector<double>(plant.struts.size()),
                    .strut_forces = std::vector<double>(plant.struts.size()),
-                   .acceleration = std::vector<double>(plant.size())};
+                   .acceleration = std::vector<double>(plant.size()),
+                   .road = std::vector<FootMotion>(plant.tyres.size())};
   for (const MountedDamper& damper : dampers) state.dampers.emplace_back(damper, limits, 0.0);
   return state;
 }

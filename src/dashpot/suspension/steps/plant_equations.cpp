@@ -17,22 +17,21 @@ PlantEquations::PlantEquations(const PlantForces& forces, const PlantState& star
       steady_(start.dampers.size()) {
   for (const DamperState& damper : start.dampers) {
     size_ += damper.model_state().size();
-    const auto* law = model_as<LawModel>(damper.model());
-    laws_.push_back({law && law->lag_rate() == 0 ? law : nullptr});
+    laws_.push_back({soft_law(damper.model())});
   }
   states_.resize(size_ - start.x.size());
   feet_.resize(forces.sizes().tyres * kInstants);
 
   // The numbers of a RoadCar.
-  is_road_car_ = forces.is_plain_quarter_car() && laws_[0].law;
+  is_road_car_ = forces.is_plain_quarter_car() && laws_[0].law.law;
   if (!is_road_car_) return;
-  const auto copy = [](const std::vector<double>& numbers, double* to) {
-    std::copy(numbers.begin(), numbers.end(), to);
+  const auto column = [](const std::vector<double>& rows, std::size_t k) {
+    return BodyAndWheel{rows[k], rows[rows.size() / 2 + k]};
   };
-  copy(forces.plant().struts[0].row, road_car_.row);
-  copy(forces.by_state(), road_car_.by_state[0]);
-  copy(forces.by_strut(), road_car_.by_strut);
-  copy(forces.by_tyre(), road_car_.by_tyre);
+  road_car_.row = column(forces.plant().struts[0].row, 0);
+  for (std::size_t k = 0; k < 4; ++k) road_car_.by_state[k] = column(forces.by_state(), k);
+  road_car_.by_strut = column(forces.by_strut(), 0);
+  road_car_.by_tyre = column(forces.by_tyre(), 0);
   road_car_.stops = forces.resistance(0);
   road_car_.tyre = forces.contact(0);
   road_car_.ratio = start.dampers[0].mounted().motion_ratio;
@@ -56,23 +55,31 @@ void PlantEquations::follow_loops(const PlantState& start, const IntegratorOptio
 }
 
 void PlantEquations::read(const PlantState& state, double* y) {
-  state_ = &state;
-  y = std::copy(state.x.begin(), state.x.end(), y);
-  for (std::size_t s = 0; s < state.dampers.size(); ++s) {
-    const std::span<const double> z = state.dampers[s].model_state();
-    y = std::copy(z.begin(), z.end(), y);
-    currents_[s] = state.dampers[s].current();
-    steady_[s] = state.dampers[s].is_steady();
-    SteadyLaw& steady = laws_[s];
-    if (!steady.law || !steady_[s] || currents_[s] == steady.current) continue;
-    steady.current = currents_[s];
-    steady.law->parameters_at(steady.current, steady.parameters.data());
-  }
+  read_currents(state);
+  double* z = y + state.x.size();
+  forces_.with_sizes([&](auto sizes) { std::copy_n(state.x.data(), 2 * sizes.coordinates, y); });
+  for (const DamperState& damper : state.dampers)
+    for (const double value : damper.model_state()) *z++ = value;
 
   // A loop goes on along its branch where z is as it was left.
-  double* first = y - size_;
   for (FollowedLoop& loop : loops_)
-    first[loop.place] = first[loop.place] == loop.z ? loop.r : loop.path.folded(first[loop.place]);
+    y[loop.place] = y[loop.place] == loop.z ? loop.r : loop.path.folded(y[loop.place]);
+}
+
+void PlantEquations::read_currents(const PlantState& state) {
+  state_ = &state;
+  forces_.with_sizes([&](auto sizes) {
+    for (std::size_t s = 0; s < sizes.struts; ++s) {
+      const double current = state.dampers[s].current();
+      const bool stays = state.dampers[s].is_steady();
+      currents_[s] = current;
+      steady_[s] = stays;
+      SteadyLaw& steady = laws_[s];
+      if (!steady.law.law || !stays || current == steady.current) continue;
+      steady.current = current;
+      steady.law.law->parameters_at(current, steady.parameters.data());
+    }
+  });
 }
 
 void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
@@ -106,8 +113,8 @@ void PlantEquations::rates_of(Sizes sizes, double after, const double* y, double
     const std::size_t count = damper.model_state().size();
     const double current = steady_[s] ? currents_[s] : damper.current_after(after);
     const DamperInput motion = forces_.strut_motion(sizes, s, t, y, current);
-    damper_forces_[s] = laws_[s].law && steady_[s]
-                            ? damper.flow(*laws_[s].law, laws_[s].parameters.data(), motion, z, dz)
+    damper_forces_[s] = laws_[s].law.law && steady_[s]
+                            ? damper.flow(laws_[s].law, laws_[s].parameters.data(), motion, z, dz)
                             : damper.flow(motion, {z, count}, {dz, count});
     strut_forces_[s] = damper_forces_[s] + forces_.strut_extra(s, motion);
     speeds_[s] = damper.speed(motion);
@@ -132,23 +139,28 @@ void PlantEquations::rates_at(std::size_t instant, const double* y, double* dy) 
 
 void PlantEquations::look_ahead(const Instants& after) noexcept {
   after_ = after;
-  std::array<double, kInstants> times;
-  for (std::size_t k = 0; k < kInstants; ++k) times[k] = state_->time + after[k];
-  for (std::size_t w = 0; w < forces_.sizes().tyres; ++w)
-    forces_.feet(w, times, std::span(feet_).subspan(w * kInstants, kInstants));
+  for (std::size_t k = 0; k < kInstants; ++k) times_[k] = state_->time + after[k];
+  forces_.with_sizes([&](auto sizes) {
+    for (std::size_t w = 0; w < sizes.tyres; ++w)
+      forces_.feet(w, times_, {feet_.data() + w * kInstants, kInstants});
+  });
   if (!is_road_car_ || steady_[0]) return;
   for (std::size_t k = 0; k < kInstants; ++k)
-    road_car_.law->parameters_at(state_->dampers[0].current_after(after[k]), ahead_[k].data());
+    road_car_.law.law->parameters_at(state_->dampers[0].current_after(after[k]), ahead_[k].data());
 }
 
 void PlantEquations::write_forces(const double* dy, PlantState& state) const {
-  state.damper_forces = damper_forces_;
-  state.strut_forces = strut_forces_;
-  std::copy_n(dy + coordinates_, coordinates_, state.acceleration.begin());
+  forces_.with_sizes([&](auto sizes) {
+    for (std::size_t s = 0; s < sizes.struts; ++s) {
+      state.damper_forces[s] = damper_forces_[s];
+      state.strut_forces[s] = strut_forces_[s];
+    }
+    std::copy_n(dy + sizes.coordinates, sizes.coordinates, state.acceleration.data());
+  });
 }
 
 void PlantEquations::write(const double* y, const double* dy, double end, PlantState& state) {
-  std::copy_n(y, state.x.size(), state.x.begin());
+  forces_.with_sizes([&](auto sizes) { std::copy_n(y, 2 * sizes.coordinates, state.x.data()); });
   for (FollowedLoop& loop : loops_) {
     loop.r = y[loop.place];
     loop.z = states_[loop.place - state.x.size()];
@@ -159,8 +171,14 @@ void PlantEquations::write(const double* y, const double* dy, double end, PlantS
     y += damper.model_state().size();
     damper.advance_coil(end - state.time);
   }
-  state.time = end;
   write_forces(dy, state);
+
+  // The road at the last of the instants ahead, where that is the end.
+  state.time = end;
+  if (times_.back() != end) return;
+  state.road_time = end;
+  for (std::size_t w = 0; w < state.road.size(); ++w)
+    state.road[w] = feet_[w * kInstants + kInstants - 1];
 }
 
 }  // namespace dashpot

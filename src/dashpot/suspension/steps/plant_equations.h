@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 
-#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/suspension/steps/road_car.h"
 #include "dashpot/suspension/steps/step_method.h"
 
@@ -9,7 +8,7 @@ namespace dashpot {
 
 /// A damper that is a law without a lag: its parameters stay as they are while its current does.
 struct SteadyLaw {
-  const LawModel* law = nullptr;  ///< null: some other model
+  SoftLaw law;
   double current = NAN;
   std::array<double, kMaxParams> parameters{};
 };
@@ -33,6 +32,9 @@ class PlantEquations {
   std::size_t coordinates() const noexcept { return coordinates_; }
   /// y of a state, which must outlive the calls of rates(): their time counts from its instant.
   void read(const PlantState& state, double* y);
+  /// The same of a state that differs from the one that was last written or read by its currents
+  /// alone.
+  void read_currents(const PlantState& state);
   /// f at `after` seconds from there. Allocates nothing.
   void rates(double after, const double* y, double* dy) noexcept;
   /// Instants of a step, s after there, whose road and currents are found at once.
@@ -71,7 +73,8 @@ class PlantEquations {
   std::vector<SteadyLaw> laws_;  ///< one per damper
   std::vector<FollowedLoop> loops_;
   std::vector<double> states_;    ///< of the dampers at the last call of rates(), loops by their z
-  Instants after_{};              ///< the instants ahead
+  Instants after_{};              ///< the instants ahead, s after the state's
+  Instants times_{};              ///< and their times, s
   std::vector<FootMotion> feet_;  ///< there, tyre by tyre
   bool is_road_car_ = false;
   RoadCar road_car_{};

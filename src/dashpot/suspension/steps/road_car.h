@@ -1,6 +1,8 @@
 #pragma once
-#include "dashpot/damper/kinds/law/law_model.h"
+#include <cstring>
+
 #include "dashpot/suspension/dampers/law_loop.h"
+#include "dashpot/suspension/dampers/soft_friction.h"
 #include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
@@ -14,18 +16,39 @@ struct FollowedLoop {
   double m = 0, steep = 1, along = 0;  ///< at the last call of rates(): LoopPath's
 };
 
+/// Numbers of the body and of the wheel, which one instruction adds or multiplies.
+typedef double BodyAndWheel __attribute__((vector_size(2 * sizeof(double))));
+
 /// The equations of a quarter car on a road, without friction, with a damper that is a law without
 /// a lag of its own: what PlantEquations has for any plant, in the same order of sums and so the
 /// same to the bit, but with its numbers in one place, so that a step's stages are straight code.
-/// y = [body, wheel, their speeds, states of the law, a loop that is followed by its r].
 struct RoadCar {
-  double row[2];                   ///< of the strut
-  double by_state[2][4];           ///< q'' by y
-  double by_strut[2], by_tyre[2];  ///< q'' by the strut's force and by the road's push on the wheel
+  /// y, or its rates. kStates: of the law; a loop that is followed stands there by its r.
+  template <std::size_t kStates>
+  struct State {
+    BodyAndWheel heights, speeds;
+    double law[kStates + 1];
+
+    /// From and to [body, wheel, their speeds, states of the law].
+    [[gnu::always_inline]] inline void get(const double* y) {
+      std::memcpy(&heights, y, sizeof heights);
+      std::memcpy(&speeds, y + 2, sizeof speeds);
+      for (std::size_t k = 0; k < kStates; ++k) law[k] = y[4 + k];
+    }
+    [[gnu::always_inline]] inline void put(double* y) const {
+      std::memcpy(y, &heights, sizeof heights);
+      std::memcpy(y + 2, &speeds, sizeof speeds);
+      for (std::size_t k = 0; k < kStates; ++k) y[4 + k] = law[k];
+    }
+  };
+
+  BodyAndWheel row;                ///< of the strut
+  BodyAndWheel by_state[4];        ///< q'' by each of heights and speeds
+  BodyAndWheel by_strut, by_tyre;  ///< q'' by the strut's force and by the road's push on the wheel
   StrutResistance<double> stops;
   TyreContact<double> tyre;
   double ratio, factor;  ///< MountedDamper's
-  const LawModel* law;
+  SoftLaw law;
   FollowedLoop* loop;  ///< among its states; null: none is followed
   double* states;      ///< those at the last call of rates() where a loop is, by its z
 
@@ -34,32 +57,31 @@ struct RoadCar {
     double damper, strut;
   };
   /// dy/dt with these parameters of the law, on the road as it is there. kFollows: there is a loop.
-  template <std::size_t kSize, bool kFollows>
+  template <bool kFollows, std::size_t kStates>
   [[gnu::always_inline]] inline Forces rates(const double* parameters, const FootMotion& foot,
-                                             const double* y, double* dy) const {
-    constexpr std::size_t kStates = kSize - 4;
-    double z[kStates + 1]{}, dz[kStates + 1];
-    for (std::size_t k = 0; k < kStates; ++k) z[k] = y[4 + k];
+                                             const State<kStates>& y, State<kStates>& dy) const {
+    double z[kStates + 1]{};
+    for (std::size_t k = 0; k < kStates; ++k) z[k] = y.law[k];
     if constexpr (kFollows) unfold<kStates>(z);
 
     // The damper's force, and the rates of its states.
-    const double x = 0 + row[0] * y[0] + row[1] * y[1], v = 0 + row[0] * y[2] + row[1] * y[3];
-    const double damper =
-        ratio * (factor * law->flow(parameters, {ratio * x, ratio * v, 0}, z, dz));
+    const BodyAndWheel ways = row * y.heights, speeds = row * y.speeds;
+    const double x = ways[0] + ways[1], v = speeds[0] + speeds[1];
+    DamperInput motion{x, v, 0};
+    if (ratio != 1) motion = {ratio * x, ratio * v, 0};
+    double damper = factor * law.flow(parameters, motion, z, dy.law);
+    if (ratio != 1) damper *= ratio;
     const double strut = damper + strut_resistance(stops, x, 0.0);
-    if constexpr (kFollows) fold<kStates>(ratio * v, dz);
-    for (std::size_t k = 0; k < kStates; ++k) dy[4 + k] = dz[k];
+    if constexpr (kFollows) fold<kStates>(motion.velocity, dy.law);
 
     // The motion under it and on this road.
     const double pushed = road_push(tyre, foot.height, foot.velocity);
-    dy[0] = y[2];
-    dy[1] = y[3];
-    for (std::size_t i = 0; i < 2; ++i) {
-      double sum = 0;
-      for (std::size_t k = 0; k < 4; ++k) sum += by_state[i][k] * y[k];
-      sum += by_strut[i] * strut;
-      dy[2 + i] = sum + by_tyre[i] * pushed;
-    }
+    BodyAndWheel sum{};
+    for (std::size_t k = 0; k < 2; ++k) sum += by_state[k] * y.heights[k];
+    for (std::size_t k = 0; k < 2; ++k) sum += by_state[2 + k] * y.speeds[k];
+    sum += by_strut * strut;
+    dy.heights = y.speeds;
+    dy.speeds = sum + by_tyre * pushed;
     return {damper, strut};
   }
 
@@ -68,7 +90,7 @@ struct RoadCar {
   template <std::size_t kStates>
   [[gnu::always_inline]] inline void unfold(double* z) const {
     for (std::size_t k = 0; k < kStates; ++k) {
-      if (4 + k == loop->place) {
+      if (k == loop->place - 4) {
         const auto place = loop->path.place(z[k]);
         loop->m = place.m;
         loop->steep = place.steep;
@@ -82,7 +104,7 @@ struct RoadCar {
   [[gnu::always_inline]] inline void fold(double speed, double* dz) const {
     loop->along = loop->path.along(speed - (loop->series ? dz[*loop->series - 4] : 0));
     for (std::size_t k = 0; k < kStates; ++k)
-      if (4 + k == loop->place)
+      if (k == loop->place - 4)
         dz[k] = loop->path.folded_rate(dz[k], loop->along, {loop->m, loop->steep});
   }
 };

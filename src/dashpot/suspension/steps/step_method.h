@@ -17,6 +17,9 @@ struct PlantState {
   std::vector<double> damper_forces;  ///< N, one per strut
   std::vector<double> strut_forces;   ///< with stop and friction
   std::vector<double> acceleration;   ///< q''
+  /// The road under the tyres at this time, s, for whoever asks for it at the same instant.
+  std::vector<FootMotion> road;
+  double road_time = -1;
 
   /// Not moving at q = 0, with these dampers.
   static PlantState at_rest(const Plant& plant, const std::vector<MountedDamper>& dampers,
