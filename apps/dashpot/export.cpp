@@ -139,7 +139,7 @@ void require_blocks(const ExportSettings& settings, const std::string& where,
                   "--to " + join(possible, ", "));
 }
 
-/// The observer of a plant with this damper in it.
+/// The observer of a plant with this damper in each of its struts.
 CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& options,
                            Console& console) {
   const InPlantSetup setup = read_in_plant_setup(settings.plant);
@@ -152,7 +152,7 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   const std::shared_ptr<const DamperModel> damper = std::move(file.model);
   auto observer = std::make_shared<const PlantObserver>(
       make_observer(damper, file.domain, setup, sample_time, observed));
-  return [observer, names = observer_names(setup, *damper)](const ExportOptions& own) {
+  return [observer, names = observer_names(setup, damper->name())](const ExportOptions& own) {
     return c_observer_block(*observer, names, own);
   };
 }

@@ -48,7 +48,10 @@ constexpr std::string_view kObserveExample =
     "\n"
     "# A virtual campaign, judged by its truth:\n"
     "dashpot bench --in car.yaml --output rides\n"
-    "dashpot observe model.json --in car.yaml rides --truth rides/truth";
+    "dashpot observe model.json --in car.yaml rides --truth rides/truth\n"
+    "\n"
+    "# A half car whose dampers are not alike:\n"
+    "dashpot observe front=firm.json,rear=soft.json --in half.yaml drive.csv";
 
 /// Where the truth is known: how far the estimates are from it.
 struct TruthFigure {
@@ -63,18 +66,65 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+/// A model file per damper, in the order of the plant's struts: MODEL is one for all of them, or
+/// says NAME=FILE of each.
+std::vector<std::string> model_files(const std::string& model,
+                                     const std::vector<std::string>& struts) {
+  if (model.find('=') == std::string::npos || fs::exists(model))
+    return std::vector<std::string>(struts.size(), model);
+  std::vector<std::string> files(struts.size());
+  for (const std::string& word : split(model, ',')) {
+    const std::size_t equals = word.find('=');
+    const std::string name = word.substr(0, equals);
+    const auto strut = std::ranges::find(struts, name);
+    if (equals == std::string::npos || equals + 1 == word.size())
+      throw UsageError("MODEL", "'" + word + "' is of no damper", "NAME=FILE of each damper");
+    if (strut == struts.end())
+      throw UsageError("MODEL", "the plant has no damper '" + name + "'", suggest(name, struts));
+    std::string& file = files[static_cast<std::size_t>(strut - struts.begin())];
+    if (!file.empty())
+      throw UsageError("MODEL", "the damper '" + name + "' has two models", "one of each damper");
+    file = word.substr(equals + 1);
+  }
+  for (std::size_t d = 0; d < struts.size(); ++d)
+    if (files[d].empty())
+      throw UsageError("MODEL", "the damper '" + struts[d] + "' has no model",
+                       model + "," + struts[d] + "=FILE, or one FILE for all dampers");
+  return files;
+}
+
+/// The dampers in a plant by their files, each of which is read once.
+ObservedDampers load_dampers(const std::vector<std::string>& files, const InPlantSetup& setup,
+                             Console& console) {
+  ObservedDampers dampers;
+  for (std::size_t d = 0; d < files.size(); ++d) {
+    const auto same = std::ranges::find(files, files[d]) - files.begin();
+    if (static_cast<std::size_t>(same) < d) {
+      dampers.push_back(dampers[static_cast<std::size_t>(same)]);
+      continue;
+    }
+    ModelFile file = load_damper_file({.model = files[d], .parameters = {}}, "observe", console);
+    require_plant_drive(setup, file, files[d]);
+    dampers.push_back({std::move(file.model), file.domain});
+  }
+  return dampers;
+}
+
 /// The truth of each recording, of what is estimated; none where it is not known.
 std::vector<PlantRecording> read_truths(const ObserveSettings& settings,
                                         const ObserveReport& report) {
   std::vector<PlantRecording> truths;
   if (settings.truth.empty()) return truths;
+  std::vector<std::string> forces;
+  for (const std::string& strut : report.struts)
+    forces.push_back(force_name(strut, report.struts.size()));
   for (const ObservedRecording& observed : report.recordings) {
     std::vector<std::string> names;
     for (const ObservedQuantity& q : observed.quantities) names.push_back(q.name);
 
     const fs::path path = settings.truth;
-    truths.push_back(read_plant_recording(fs::is_directory(path) ? path / observed.name : path,
-                                          {"damper_force"}, names));
+    truths.push_back(
+        read_plant_recording(fs::is_directory(path) ? path / observed.name : path, forces, names));
   }
   return truths;
 }
@@ -184,6 +234,7 @@ DocumentTable observed_sensors(const ObserveReport& report, double level) {
 
 /// What was taken as uncertain, in words that the plant's file and the options understand.
 std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantSetup& setup) {
+  const Plant plant = make_plant(*setup.model, setup.known);
   std::vector<std::string> lines;
   std::string errors, words;
   for (const ForceError& one : report.noise.force) {
@@ -192,9 +243,11 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
               unit_name("N") + ", forgotten in " + memory + " s";
     words += (words.empty() ? "" : ",") + format_number(one.deviation, 3) + "@" + memory;
   }
-  lines.push_back("Errors of the model's force: " + errors + " (--force-error " + words + ").");
+  lines.push_back((report.struts.size() > 1 ? "Errors of each damper's force: "
+                                            : "Errors of the model's force: ") +
+                  errors + " (--force-error " + words + ").");
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
-    const std::string unit = unit_of(setup.sensors[s].place.quantity);
+    const std::string unit = unit_of(setup.sensors[s].place, plant);
     lines.push_back(fmt::format("Noise of {}: {} {}{}.", setup.sensors[s].channel,
                                 quantity(report.noise.sensors[s], unit), unit_name(unit),
                                 setup.sensors[s].noise > 0 ? ", as stated" : ", found"));
@@ -295,8 +348,10 @@ Value truth_json(const std::vector<TruthFigure>& truth) {
 
 Document observe_document(const ObserveReport& report, const std::vector<PlantRecording>& truths,
                           const InPlantSetup& setup, const ObserveSettings& settings,
-                          const std::string& damper, const Console& console) {
-  Document document{.title = "A plant observed through its damper's model",
+                          const ObservedDampers& dampers, const Console& console) {
+  Document document{.title = report.struts.size() > 1
+                                 ? "A plant observed through its dampers' models"
+                                 : "A plant observed through its damper's model",
                     .subtitle = std::string(setup.model->title),
                     .verdict = {},
                     .sections = {},
@@ -307,18 +362,22 @@ Document observe_document(const ObserveReport& report, const std::vector<PlantRe
                     .units = page_units(settings.units)};
   const std::vector<TruthFigure> truth = compared(report, truths);
 
-  // The force in one sentence: how sure it is, and where known how wrong.
-  const ObservedQuantity& force = report.recordings.front().quantities.front();
-  document.verdict = fmt::format(
-      "The force of the damper ({}) is estimated with a {} % band of +-{} {}, {}.", damper,
-      format_number(settings.level, 3), quantity(mean_of(force.half), "N"), unit_name("N"),
-      settings.causal ? "from the past alone" : "from the whole recording");
-  for (const TruthFigure& f : truth)
-    if (f.quantity == "damper_force" && f.recording == report.recordings.front().name)
-      document.verdict += fmt::format(
-          " It is {} % of its span from the truth (rms), which lies in the band {} % of "
-          "the time.",
-          format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3));
+  // Each force in one sentence: how sure it is, and where known how wrong.
+  for (std::size_t d = 0; d < report.struts.size(); ++d) {
+    const ObservedQuantity& force = report.recordings.front().quantities[d];
+    const bool is_one = report.struts.size() == 1;
+    document.verdict += fmt::format(
+        "{}The force of the {}damper ({}) is estimated with a {} % band of +-{} {}, {}.",
+        d > 0 ? " " : "", is_one ? "" : report.struts[d] + " ", dampers[d].model->name(),
+        format_number(settings.level, 3), quantity(mean_of(force.half), "N"), unit_name("N"),
+        settings.causal ? "from the past alone" : "from the whole recording");
+    for (const TruthFigure& f : truth)
+      if (f.quantity == force.name && f.recording == report.recordings.front().name)
+        document.verdict += fmt::format(
+            " It is {} % of its span from the truth (rms), which lies in the band {} % of "
+            "the time.",
+            format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3));
+  }
 
   if (!report.warnings.empty())
     document.verdict += " What the sensors show speaks against these bands: see the warnings.";
@@ -348,9 +407,9 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   if (!(settings.level > 0 && settings.level < 100))
     throw UsageError("--band", "is not between 0 and 100 %", "90");
   const InPlantSetup setup = read_in_plant_setup(settings.plant);
-  ModelFile file =
-      load_damper_file({.model = settings.model, .parameters = {}}, "observe", console);
-  require_plant_drive(setup, file, settings.model);
+  require_setup(setup);
+  const ObservedDampers dampers =
+      load_dampers(model_files(settings.model, observer_names(setup, "").struts), setup, console);
   page_units(settings.units);
   std::vector<PlantRecording> recordings;
   for (const std::string& name : recording_files(settings.recordings))
@@ -366,11 +425,9 @@ int run_observe(const ObserveSettings& settings, Console& console) {
                                .level = settings.level / 100,
                                .threads = settings.threads,
                                .monitor = console.monitor()};
-  const std::string damper = file.model->name();
-  const ObserveReport report = observe(std::shared_ptr<const DamperModel>(std::move(file.model)),
-                                       file.domain, setup, recordings, options);
+  const ObserveReport report = observe(dampers, setup, recordings, options);
   const Document document =
-      observe_document(report, read_truths(settings, report), setup, settings, damper, console);
+      observe_document(report, read_truths(settings, report), setup, settings, dampers, console);
   print_document(document, console);
   for (const std::string& line : noise_lines(report, setup))
     console.print(in_units(line, document.units) + '\n');
@@ -396,18 +453,18 @@ Command observe_command() {
       .name = "observe",
       .title = "A damper's force, speeds and road where no sensor shows them",
       .description =
-          "Follows a plant (a car, a building, an oscillator) through a recording with the model "
-          "of "
-          "its damper, by a Kalman filter and a smoother behind it: the damper's force, which no "
-          "sensor measures, deflections and velocities, and the road where nothing measured it, "
-          "each with a band. The model may be wrong: the error of its force is one of the "
-          "unknowns. How large that is, and the sensors' noise where the plant does not state it, "
-          "is found from the recordings.",
+          "Follows a plant (a car, a building, an oscillator) through a recording with the models "
+          "of its dampers, by a Kalman filter and a smoother behind it: each damper's force, which "
+          "no sensor measures, deflections and velocities, and the road where nothing measured it, "
+          "each with a band. A model may be wrong: the error of its force is one of the unknowns. "
+          "How large that is, and the sensors' noise where the plant does not state it, is found "
+          "from the recordings.",
       .options =
           {// The damper, the recordings, and the plant.
            {.names = "MODEL",
             .target = &s.model,
-            .help = "a model file that 'dashpot identify' wrote",
+            .help = "a model file that 'dashpot identify' wrote; of several dampers one for all, "
+                    "or one each by the names of their struts: front=a.json,rear=b.json",
             .takes = Takes::File,
             .required = true},
            {.names = "RECORDING",
@@ -444,7 +501,8 @@ Command observe_command() {
            {.names = "--truth",
             .target = &s.truth,
             .help = "where the truth is known, as of 'dashpot bench --in': its file, or a "
-                    "folder with a file of each recording's name; needs damper_force",
+                    "folder with a file of each recording's name; needs damper_force, of several "
+                    "dampers front_damper_force and so on",
             .value = "PATH",
             .takes = Takes::File},
            {.names = "-o,--output",

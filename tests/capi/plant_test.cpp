@@ -3,6 +3,7 @@
 
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
+#include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/value.h"
@@ -84,6 +85,43 @@ TEST_CASE("a damper inside a plant: identified from arrays, then observed") {
   CHECK(std::string(half.name) == "damper_force_half_band");
   CHECK(std::all_of(half.data, half.data + info.samples, [](double h) { return h > 0; }));
   CHECK(contains(observed.handle, "force_errors"));
+}
+
+TEST_CASE("dampers inside a plant: the force of each is observed by its strut's name") {
+  const char* const both =
+      "plant: matrices\ncoordinates: [floor, table]\n"
+      "mass: [[100 kg, 0], [0, 60 kg]]\n"
+      "stiffness: [[60 kN/m, -20 kN/m], [-20 kN/m, 20 kN/m]]\n"
+      "dampers: [{name: low, from: ground, to: floor}, {name: high, from: floor, to: table}]\n"
+      "inputs: [{channel: push, kind: force, at: floor, noise: 1}]\n"
+      "sensors:\n"
+      "  - {channel: x, quantity: displacement, at: table, noise: 0.01 mm}\n"
+      "  - {channel: a, quantity: acceleration, at: floor, noise: 0.01}\n"
+      "voltage: 1 V\n";
+  const Model model = published("spencer1997");
+  const dashpot::VirtualRide ride =
+      dashpot::virtual_campaign(dashpot::parse_in_plant_setup(both, "plant"),
+                                dashpot::load_parameters("spencer1997"),
+                                {.duration = 2, .sample_rate = 200, .levels = {1}, .push = 300})
+          .front();
+  Rides rides;
+  REQUIRE(dashpot_rides_new(&rides) == DASHPOT_OK);
+  REQUIRE(add(rides, ride.recorded) == DASHPOT_OK);
+  Recordings estimates;
+  REQUIRE(dashpot_observe(model, rides, both, R"({"force_error": [[5, 0.02]], "steps": 4})",
+                          nullptr, &estimates, nullptr) == DASHPOT_OK);
+  for (const std::size_t damper : {0u, 1u}) {
+    dashpot_channel force;
+    REQUIRE(dashpot_recordings_channel(estimates, 0, 2 * damper, &force) == DASHPOT_OK);
+    CHECK(std::string(force.name) == (damper == 0 ? "low_damper_force" : "high_damper_force"));
+    const std::vector<double>& truth = ride.truth.channel(force.name).samples;
+    double error = 0, size = 0;
+    for (std::size_t k = 100; k < truth.size(); ++k) {
+      error += (force.data[k] - truth[k]) * (force.data[k] - truth[k]);
+      size += truth[k] * truth[k];
+    }
+    CHECK(error < 0.01 * size);
+  }
 }
 
 TEST_CASE("inside a plant: what cannot be is refused with what would be right") {

@@ -119,3 +119,73 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
           .output,
       "--force-error: is not stated; what 'dashpot observe' prints"));
 }
+
+TEST_CASE("observe: dampers of a half car by the names of their struts") {
+  const TemporaryFolder folder;
+  const std::string car =
+      folder
+          .write("half.yaml",
+                 "plant: half_car\n"
+                 "parameters: {mass: 690 kg, inertia: 1222 kg*m^2, front_wheel_mass: 80 kg,\n"
+                 "  rear_wheel_mass: 90 kg, front_stiffness: 17 N/mm, rear_stiffness: 22 N/mm,\n"
+                 "  front_tyre_stiffness: 200 N/mm, rear_tyre_stiffness: 200 N/mm,\n"
+                 "  front_distance: 1.3 m, rear_distance: 1.5 m}\n"
+                 "inputs:\n"
+                 "  - {channel: road_front, kind: ground, at: front, noise: 0.2 mm}\n"
+                 "  - {channel: road_rear, kind: ground, at: rear, noise: 0.2 mm}\n"
+                 "sensors:\n"
+                 "  - {channel: az_front, quantity: acceleration, at: front_wheel, noise: 0.5}\n"
+                 "  - {channel: level_rear, quantity: deflection, at: rear, noise: 0.2 mm}\n"
+                 "voltage: coil\n")
+          .string();
+  for (const char* name : {"spencer1997", "braz_cesar_barros2013"})
+    save_model(to_model_file(load_parameter_set(name)),
+               folder.path() / (std::string(name) + ".json"));
+  const std::string spencer = (folder.path() / "spencer1997.json").string(),
+                    rides = (folder.path() / "rides").string();
+  REQUIRE(
+      run_dashpot("bench --in " + car + " --levels 1 --duration 1 --output " + rides).exit_code ==
+      0);
+
+  // One model for both dampers, then one each, of which the order does not matter.
+  const std::string with = " --in " + car + ' ' + rides + " --truth " + rides +
+                           "/truth --force-error 5@0.01 --steps 1 --json --output " +
+                           (folder.path() / "seen").string();
+  const auto truth_of = [&](const std::string& model) {
+    const ProgramResult result = stdout_of_dashpot("observe " + model + with);
+    REQUIRE(result.exit_code == 0);
+    return parse_json(result.output, "stdout").find("truth")->items();
+  };
+  const auto both = truth_of(spencer);
+  CHECK(both[0].find("quantity")->as_string() == "front_damper_force");
+  CHECK(both[1].find("quantity")->as_string() == "rear_damper_force");
+  for (const std::size_t damper : {0u, 1u})
+    CHECK(both[damper].find("error")->as_number() < 0.02 * both[damper].find("span")->as_number());
+  const auto each = truth_of("rear=" + spencer + ",front=" + spencer);
+  CHECK(each[1].find("error")->as_number() == both[1].find("error")->as_number());
+
+  // What cannot be used.
+  const auto refusal = [&](const std::string& model) {
+    return run_dashpot("observe " + model + with).output;
+  };
+  CHECK(contains(refusal("front=" + spencer),
+                 "MODEL: the damper 'rear' has no model; front=" + spencer +
+                     ",rear=FILE, or one FILE for all dampers"));
+  CHECK(contains(refusal("fornt=" + spencer + ",rear=" + spencer),
+                 "MODEL: the plant has no damper 'fornt'; did you mean 'front'"));
+  CHECK(contains(refusal("rear=" + spencer + ",rear=" + spencer), "'rear' has two models"));
+  CHECK(contains(refusal("front=" + spencer + ",rear="), "'rear=' is of no damper; NAME=FILE"));
+  CHECK(contains(refusal("front=" + spencer + ",rear=" + (folder.path() / "no.json").string()),
+                 "no.json"));
+  CHECK(contains(refusal("front=" + spencer +
+                         ",rear=" + (folder.path() / "braz_cesar_barros2013.json").string()),
+                 "takes A, and the plant states V"));
+
+  // The observer of both as C.
+  const std::string c = (folder.path() / "ecu").string();
+  const ProgramResult exported =
+      run_dashpot("export " + spencer + " --in " + car +
+                  " --force-error 5@0.01 --to c --name cells --output " + c);
+  CHECK(exported.exit_code == 0);
+  CHECK(contains(read_file(c + "/cells.h"), "rear_damper_force (N)"));
+}

@@ -12,10 +12,21 @@ struct ExampleObserver {
   dashpot::ObserverNames names;
 };
 
-inline ExampleObserver example_observer(const std::string& damper) {
+inline ExampleObserver example_observer_in(const std::string& plant, const std::string& damper) {
   using namespace dashpot;
   const ParameterSet set = load_parameter_set(damper);
   const InPlantSetup setup = parse_in_plant_setup(
+      plant + (set.model.drive_unit() == DriveUnit::Volt ? "voltage" : "current") + ": coil\n",
+      "car.yaml");
+  ObserveOptions options;
+  options.force = {{30, 0.01}, {20, 0.5}};
+  const auto model = std::make_shared<LawModel>(set.model);
+  return {make_observer(model, usual_domain(set.drive_min, set.drive_max), setup, 1e-3, options),
+          observer_names(setup, model->name())};
+}
+
+inline ExampleObserver example_observer(const std::string& damper) {
+  return example_observer_in(
       "plant: quarter_car\n"
       "parameters:\n"
       "  unsprung_mass: 40 kg\n"
@@ -27,13 +38,26 @@ inline ExampleObserver example_observer(const std::string& damper) {
       "sensors:\n"
       "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
       "  - {channel: az_wheel, quantity: acceleration, at: wheel, noise: 0.5}\n"
-      "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n" +
-          std::string(set.model.drive_unit() == DriveUnit::Volt ? "voltage" : "current") +
-          ": coil\n",
-      "car.yaml");
-  ObserveOptions options;
-  options.force = {{30, 0.01}, {20, 0.5}};
-  const auto model = std::make_shared<LawModel>(set.model);
-  return {make_observer(model, usual_domain(set.drive_min, set.drive_max), setup, 1e-3, options),
-          observer_names(setup, *model)};
+      "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n",
+      damper);
+}
+
+/// The same of a half car with this damper in both struts, on roads that are measured.
+inline ExampleObserver example_half_car_observer(const std::string& damper) {
+  return example_observer_in(
+      "plant: half_car\n"
+      "parameters: {mass: 690 kg, inertia: 1222 kg*m^2, front_wheel_mass: 40 kg,\n"
+      "  rear_wheel_mass: 45 kg, front_stiffness: 17 N/mm, rear_stiffness: 22 N/mm,\n"
+      "  front_tyre_stiffness: 200 N/mm, rear_tyre_stiffness: 200 N/mm, front_distance: 1.3 m,\n"
+      "  rear_distance: 1.5 m}\n"
+      "inputs:\n"
+      "  - {channel: road_front, kind: ground, at: front, noise: 0.2 mm}\n"
+      "  - {channel: road_rear, kind: ground, at: rear, noise: 0.2 mm}\n"
+      "sensors:\n"
+      "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
+      "  - {channel: rate, quantity: velocity, at: pitch, noise: 0.3 deg/s}\n"
+      "  - {channel: az_rear, quantity: acceleration, at: rear_wheel, noise: 0.5}\n"
+      "  - {channel: level, quantity: deflection, at: front, noise: 0.2 mm}\n"
+      "  - {channel: cell, quantity: damper_force, at: rear, noise: 20 N}\n",
+      damper);
 }

@@ -317,11 +317,6 @@ TEST_CASE("several dampers: what cannot be is refused, with what would be right"
                  "has 2 dampers, and a fit beside a road that nothing measures knows one"));
 
   // Who follows one damper alone.
-  const auto damper = std::make_shared<LawModel>(load_parameters("spencer1997"));
-  CHECK(contains(message_of([&] { observe(damper, {}, half_car(), {half_car_ride(1, 1)}, {}); }),
-                 "plant half_car: has 2 dampers, and the observer knows one"));
-  CHECK(contains(message_of([&] { make_observer(damper, {}, half_car(), kRideStep, {}); }),
-                 "and the observer knows one"));
   CHECK(contains(message_of([&] { require_watchable(half_car(), {}); }), "and 'watch' knows one"));
 }
 

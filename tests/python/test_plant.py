@@ -53,6 +53,37 @@ class InsideAPlant(InFolder):
         with self.assertRaises(KeyError):
             seen["damper_farce"]
 
+    def test_two_dampers(self):
+        rig = {
+            "plant": "matrices",
+            "coordinates": ["floor", "table"],
+            "mass": [["100 kg", 0], [0, "60 kg"]],
+            "stiffness": [["60 kN/m", "-20 kN/m"], ["-20 kN/m", "20 kN/m"]],
+            "dampers": [
+                {"name": "low", "from": "ground", "to": "floor"},
+                {"name": "high", "from": "floor", "to": "table"},
+            ],
+            "inputs": [{"channel": "push", "kind": "force", "at": "floor", "noise": 1}],
+            "sensors": [
+                {"channel": "x", "quantity": "displacement", "at": "table", "noise": "0.01 mm"},
+                {"channel": "a", "quantity": "acceleration", "at": "floor", "noise": 0.01},
+            ],
+            "voltage": "coil",
+        }
+        plant = self.folder / "rig.json"
+        plant.write_text(json.dumps(rig))
+        words = ["--damper", "spencer1997", "--levels", "1", "--duration", "2", "--push", "300", "--sample-rate", "200"]
+        program("bench", "--in", plant, *words, "--output", self.folder / "both")
+        ride = self.folder / "both" / "ride_1.csv"
+        seen = dashpot.observe(dashpot.published("spencer1997"), ride, rig, force_error=[(5, 0.02)])
+        truths = np.genfromtxt(self.folder / "both" / "truth" / "ride_1.csv", delimiter=",", names=True)
+        for strut in ("low", "high"):
+            force, half = seen[strut + "_damper_force"]
+            column = next(name for name in truths.dtype.names if name.startswith(strut + "_damper_force"))
+            error = (truths[column] - force)[100:]
+            self.assertLess(np.std(error), 0.1 * np.std(truths[column]))
+            self.assertTrue((half > 0).all())
+
     def test_wrong_use(self):
         with self.assertRaisesRegex(dashpot.Error, "unknown law|tanh_quok"):
             dashpot.identify_in_plant(self.ride, self.plant, "tanh_quok")

@@ -115,8 +115,8 @@ PlantObserver DayProblem::observer(const std::vector<double>& x) const {
   for (std::size_t k = 0; k < watched_->wears.size(); ++k)
     amounts.push_back({watched_->wears[k], watched_->wears[k]->usual * x[k]});
   const auto damper = std::make_shared<WornDamper>(watched_->damper, std::move(amounts));
-  return {observer_tables(setup, *damper, noise, scale_, recording_->sample_time, watched_->steps),
-          damper};
+  return {observer_tables(setup, {damper}, noise, scale_, recording_->sample_time, watched_->steps),
+          {damper}};
 }
 
 double DayProblem::misfit_of(const Innovations& told) const {

@@ -27,6 +27,10 @@ void require_one_damper(const InPlantSetup& setup, const std::string& who) {
     throw Error("plant " + std::string(setup.model->name),
                 "has " + std::to_string(dampers) + " dampers, and " + who + " knows one",
                 "a plant with one strut, as quarter_car");
+  require_no_follower(setup, who);
+}
+
+void require_no_follower(const InPlantSetup& setup, const std::string& who) {
   for (const PlantInputChannel& input : setup.inputs)
     if (!input.follows.empty())
       throw Error("plant, " + input.channel, who + " knows no road that follows another one",

@@ -86,6 +86,8 @@ void require_setup(const InPlantSetup& setup);
 /// For what knows a single damper, and no road that follows another one. Throws Error "has 2
 /// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);
+/// For what knows no road that follows another one. Throws Error likewise.
+void require_no_follower(const InPlantSetup& setup, const std::string& who);
 /// Which input a road follows: the place in the setup of the one whose channel it names; behind
 /// the last where there is none.
 std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower);

@@ -1,6 +1,7 @@
 #include "dashpot/machine/observe.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -105,41 +106,43 @@ NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecor
     }
 }
 
-std::vector<PlantObserver> observers_of(const std::shared_ptr<const DamperModel>& damper,
-                                        const InPlantSetup& setup,
+using DamperModels = std::vector<std::shared_ptr<const DamperModel>>;
+
+std::vector<PlantObserver> observers_of(const DamperModels& dampers, const InPlantSetup& setup,
                                         const std::vector<PlantRecording>& recordings,
                                         const ObserverNoise& noise, const ObserverScale& scale,
                                         int steps) {
   std::vector<PlantObserver> observers;
   for (const PlantRecording& recording : recordings)
     observers.emplace_back(
-        observer_tables(setup, *damper, noise, scale, recording.sample_time, steps), damper);
+        observer_tables(setup, dampers, noise, scale, recording.sample_time, steps), dampers);
   return observers;
 }
 
-/// So many steps per sample that twice as many change the force by less than 0.3 % of its scale.
-int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlantSetup& setup,
-                 const ObserverNoise& noise, const ObserverScale& scale,
-                 const PlantRecording& recording, const ObservedSamples& samples) {
+/// So many steps per sample that twice as many change the forces by less than 0.3 % of their scale.
+int enough_steps(const DamperModels& dampers, const InPlantSetup& setup, const ObserverNoise& noise,
+                 const ObserverScale& scale, const PlantRecording& recording,
+                 const ObservedSamples& samples) {
   constexpr int kFinestSteps = 32;
   constexpr std::size_t kTried = 1500;
   constexpr double kEnough = 0.003;
 
-  // The force along the first samples, by so many steps.
+  // The forces along the first samples, by so many steps.
   const auto forces = [&](int steps) {
     ObservedSamples some = samples;
     some.count = std::min(samples.count, kTried);
     const PlantObserver observer(
-        observer_tables(setup, *damper, noise, scale, recording.sample_time, steps), damper);
+        observer_tables(setup, dampers, noise, scale, recording.sample_time, steps), dampers);
     const ObservedRun run = filtered(observer, some);
     const std::size_t all = observer.tables().all();
     std::vector<double> force;
     for (std::size_t k = 1; k < some.count; ++k)
-      force.push_back(observer
-                          .damper_at(some.driven_at(k - 1), some.driven_at(k),
-                                     std::span(run.estimates).subspan(k * all, all),
-                                     std::span(run.covariances).subspan(k * all * all, all * all))
-                          .force);
+      for (std::size_t d = 0; d < dampers.size(); ++d)
+        force.push_back(observer
+                            .damper_at(d, some.driven_at(k - 1), some.driven_at(k),
+                                       std::span(run.estimates).subspan(k * all, all),
+                                       std::span(run.covariances).subspan(k * all * all, all * all))
+                            .force);
     return force;
   };
 
@@ -155,11 +158,11 @@ int enough_steps(const std::shared_ptr<const DamperModel>& damper, const InPlant
 }
 
 /// Where each recording begins, twice over: the second time from where the first one came to.
-void find_starts(const std::shared_ptr<const DamperModel>& damper, const InPlantSetup& setup,
+void find_starts(const DamperModels& dampers, const InPlantSetup& setup,
                  const std::vector<PlantRecording>& recordings, const ObserverNoise& noise,
                  const ObserverScale& scale, int steps, std::vector<ObservedSamples>& samples) {
   const std::vector<PlantObserver> observers =
-      observers_of(damper, setup, recordings, noise, scale, steps);
+      observers_of(dampers, setup, recordings, noise, scale, steps);
   for (int pass = 0; pass < 2; ++pass)
     for (std::size_t r = 0; r < recordings.size(); ++r) {
       std::vector<double> about = smoothed_start(observers[r], samples[r], kOfStart);
@@ -169,8 +172,7 @@ void find_starts(const std::shared_ptr<const DamperModel>& damper, const InPlant
 }
 
 /// The uncertainties under which the recordings are most likely.
-ObserverNoise most_likely(const NoiseSearch& search,
-                          const std::shared_ptr<const DamperModel>& damper,
+ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers,
                           const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                           const std::vector<ObservedSamples>& samples, const ObserverScale& scale,
                           int steps, const ObserveOptions& options) {
@@ -183,7 +185,7 @@ ObserverNoise most_likely(const NoiseSearch& search,
     const auto [noise, beyond] = search.at(x);
     double sum = kWall * beyond;
     const std::vector<PlantObserver> observers =
-        observers_of(damper, setup, recordings, noise, scale, steps);
+        observers_of(dampers, setup, recordings, noise, scale, steps);
     for (std::size_t r = 0; r < recordings.size(); ++r)
       sum += misfit(observers[r], samples[r], kSettled, std::min(samples[r].count, used));
     return sum;
@@ -217,14 +219,16 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
                                 const PlantRecording& recording, const ObservedSamples& samples,
                                 const ObservedRun& run, double width) {
   const ObserverTables& t = observer.tables();
-  const ObserverNames names = observer_names(setup, observer.damper());
-  const std::size_t all = t.all(), count = samples.count,
+  const ObserverNames names = observer_names(setup, "");
+  const std::size_t all = t.all(), count = samples.count, dampers = names.struts.size(),
                     coordinates = static_cast<std::size_t>(t.plant) / 2;
-  const std::string strut = make_plant(*setup.model, setup.known).struts.front().name;
   ObservedRecording told{.name = recording.name, .sample_time = recording.sample_time};
-  told.quantities = {{"damper_force", "N", {}, {}},
-                     {strut + "_deflection", "m", {}, {}},
-                     {strut + "_velocity", "m/s", {}, {}}};
+  for (const std::string& strut : names.struts)
+    told.quantities.push_back({force_name(strut, dampers), "N", {}, {}});
+  for (const std::string& strut : names.struts) {
+    told.quantities.push_back({strut + "_deflection", "m", {}, {}});
+    told.quantities.push_back({strut + "_velocity", "m/s", {}, {}});
+  }
   for (std::size_t k = 0; k < names.states.size(); ++k)
     told.quantities.push_back({names.states[k], names.state_units[k], {}, {}});
 
@@ -236,20 +240,24 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
       told.quantities[which].value.push_back(value);
       told.quantities[which].half.push_back(width * std::sqrt(std::max(variance, 0.0)));
     };
-    const PlantObserver::Damper damper = observer.damper_at(
-        samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), estimate, covariance);
-    add(0, damper.force, damper.deviation * damper.deviation);
+    for (std::size_t d = 0; d < dampers; ++d) {
+      const PlantObserver::Damper damper = observer.damper_at(
+          d, samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), estimate, covariance);
+      add(d, damper.force, damper.deviation * damper.deviation);
 
-    // The damper's motion: a row over the plant's coordinates, or over their velocities.
-    for (const std::size_t first : {std::size_t{0}, coordinates}) {
-      double variance = 0;
-      for (std::size_t i = 0; i < coordinates; ++i)
-        for (std::size_t j = 0; j < coordinates; ++j)
-          variance += t.deflection[i] * t.deflection[j] * covariance[(first + i) * all + first + j];
-      add(first == 0 ? 1 : 2, first == 0 ? damper.deflection : damper.velocity, variance);
+      // A damper's motion: a row over the plant's coordinates, or over their velocities.
+      const double* way = &t.deflection[d * coordinates];
+      for (const std::size_t first : {std::size_t{0}, coordinates}) {
+        double variance = 0;
+        for (std::size_t i = 0; i < coordinates; ++i)
+          for (std::size_t j = 0; j < coordinates; ++j)
+            variance += way[i] * way[j] * covariance[(first + i) * all + first + j];
+        add(dampers + 2 * d + (first == 0 ? 0 : 1),
+            first == 0 ? damper.deflection : damper.velocity, variance);
+      }
     }
     for (std::size_t s = 0; s < names.states.size(); ++s)
-      add(3 + s, estimate[s], covariance[s * all + s]);
+      add(3 * dampers + s, estimate[s], covariance[s * all + s]);
   }
   return told;
 }
@@ -259,9 +267,10 @@ void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup
                         ObservedRecording& told) {
   const ObserverTables& t = observer.tables();
   const std::size_t settled = std::min<std::size_t>(50, run.samples.size() / 2);
+  const Plant plant = make_plant(*setup.model, setup.known);
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     ObservedSensor figure{.channel = setup.sensors[s].channel,
-                          .unit = unit_of(setup.sensors[s].place.quantity),
+                          .unit = unit_of(setup.sensors[s].place, plant),
                           .rms = rms_of(recording.channel(setup.sensors[s].channel).samples)};
     double square = 0, inside = 0, count = 0;
     for (std::size_t k = settled; k < run.samples.size(); ++k) {
@@ -327,20 +336,37 @@ void require_plant_drive(const InPlantSetup& setup, const ModelFile& file,
                 "'voltage' or 'current' of the plant as the damper has it");
 }
 
+std::string force_name(const std::string& strut, std::size_t dampers) {
+  return (dampers > 1 ? strut + "_" : "") + "damper_force";
+}
+
 ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                       const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                       const ObserveOptions& options) {
+  require_setup(setup);
+  return observe(ObservedDampers(setup.dampers(), {std::move(damper), domain}), setup, recordings,
+                 options);
+}
+
+ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
+                      const std::vector<PlantRecording>& recordings,
+                      const ObserveOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
-  require_one_damper(setup, "the observer");
+  require_no_follower(setup, "the observer");
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
-  ObserveReport report;
-  damper = mounted(
-      std::move(damper),
-      setup.drive.empty() ? setup.level : recordings.front().channel(setup.drive).samples.front());
+  ObserveReport report{.struts = observer_names(setup, "").struts};
+  assert(dampers.size() == report.struts.size());
+  const double drive =
+      setup.drive.empty() ? setup.level : recordings.front().channel(setup.drive).samples.front();
+  DamperModels models;
+  for (ObservedDamper& damper : dampers) {
+    damper.model = mounted(std::move(damper.model), drive);
+    models.push_back(damper.model);
+  }
 
   // How large things are, and what is uncertain.
-  ObserverScale scale = observer_scale(*damper, domain);
+  ObserverScale scale = observer_scale(dampers);
   for (const PlantSensor& sensor : setup.sensors)
     scale.offset.push_back(sensor.zero > 0 ? sensor.zero
                            : sensor.noise > 0
@@ -354,22 +380,22 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
 
   // The filter's step, then what was not stated.
   report.steps = options.steps > 0 ? options.steps
-                                   : enough_steps(damper, setup, search.first(), scale,
+                                   : enough_steps(models, setup, search.first(), scale,
                                                   recordings.front(), samples.front());
   options.monitor.report("uncertainties", 0.1);
   if (!options.causal)
-    find_starts(damper, setup, recordings, search.first(), scale, report.steps, samples);
+    find_starts(models, setup, recordings, search.first(), scale, report.steps, samples);
   report.noise_was_found = search.size() > 0;
-  report.noise = report.noise_was_found ? most_likely(search, damper, setup, recordings, samples,
+  report.noise = report.noise_was_found ? most_likely(search, models, setup, recordings, samples,
                                                       scale, report.steps, options)
                                         : search.first();
 
   // Each recording in turn.
   const double width = normal_quantile(0.5 + 0.5 * options.level);
   const std::vector<PlantObserver> observers =
-      observers_of(damper, setup, recordings, report.noise, scale, report.steps);
+      observers_of(models, setup, recordings, report.noise, scale, report.steps);
   if (!options.causal)
-    find_starts(damper, setup, recordings, report.noise, scale, report.steps, samples);
+    find_starts(models, setup, recordings, report.noise, scale, report.steps, samples);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     options.monitor.check();
     options.monitor.report(
@@ -402,10 +428,11 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
                             InPlantSetup setup, double sample_time, const ObserveOptions& options) {
   constexpr double kLate = 0.1;  // of a sample
   require_setup(setup);
-  require_one_damper(setup, "the observer");
+  require_no_follower(setup, "the observer");
   setup.from_rest = true;
   damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
-  ObserverScale scale = observer_scale(*damper, domain);
+  const DamperModels models(setup.dampers(), damper);
+  ObserverScale scale = observer_scale(ObservedDampers(models.size(), {damper, domain}));
 
   // All that is uncertain must be stated: nothing is searched for where it runs.
   ObserverNoise noise;
@@ -430,8 +457,8 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
         throw Error("plant, road", "its class is unknown", "class: A to H");
       noise.roughness = input.road->roughness;
     }
-  return {observer_tables(setup, *damper, noise, scale, sample_time, std::max(options.steps, 1)),
-          damper};
+  return {observer_tables(setup, models, noise, scale, sample_time, std::max(options.steps, 1)),
+          models};
 }
 
 }  // namespace dashpot

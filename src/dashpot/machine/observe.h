@@ -13,9 +13,9 @@
 
 namespace dashpot {
 
-// What no sensor shows of a plant whose damper is known: the damper's force (a load cell that is
-// not there), velocities, the road. A Kalman filter of plant and damper, and over a recording that
-// is whole a smoother behind it, give each of them with a band.
+// What no sensor shows of a plant whose dampers are known: their forces (load cells that are not
+// there), velocities, the road. A Kalman filter of plant and dampers, and over a recording that is
+// whole a smoother behind it, give each of them with a band.
 
 struct ObserveOptions {
   bool causal = false;  ///< only from the past, as on an ECU; else from the whole recording
@@ -44,11 +44,12 @@ struct ObservedSensor {
 struct ObservedRecording {
   std::string name;
   double sample_time = 0;
-  std::vector<ObservedQuantity> quantities;  ///< the damper's force first
+  std::vector<ObservedQuantity> quantities;  ///< the dampers' forces first
   std::vector<ObservedSensor> sensors;
 };
 
 struct ObserveReport {
+  std::vector<std::string> struts;  ///< in which the dampers stand
   std::vector<ObservedRecording> recordings;
   ObserverNoise noise;  ///< stated or found
   int steps = 1;
@@ -57,19 +58,27 @@ struct ObserveReport {
   std::vector<std::string> warnings;
 };
 
-/// Observes the recordings with this damper in the plant, all of whose numbers are known. What is
-/// not stated of the uncertainties (the model's error, sensors' noise, the road's class) is that
-/// under which the recordings are most likely; every sensor's stated delay is taken off. Throws
-/// Error before long work where a number of the plant is unknown, where a recording is too short,
-/// where the damper's model cannot be followed. The domain is that of the damper's data; what the
+/// What the force of the damper in a strut is called, among those of a plant with so many dampers:
+/// "damper_force", of several "front_damper_force".
+std::string force_name(const std::string& strut, std::size_t dampers);
+
+/// Observes the recordings with these dampers in the plant, all of whose numbers are known: one in
+/// each strut, in their order. What is not stated of the uncertainties (the models' errors,
+/// sensors' noise, the road's class) is that under which the recordings are most likely; every
+/// sensor's stated delay is taken off. Throws Error before long work where a number of the plant is
+/// unknown, where a recording is too short, where a damper's model cannot be followed. What a
 /// damper has at rest is taken off, since the springs bear it.
+ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
+                      const std::vector<PlantRecording>& recordings, const ObserveOptions& options);
+/// The same with this damper in each strut.
 ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                       const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                       const ObserveOptions& options);
 
-/// The filter alone, with all uncertainties stated: what an ECU runs at this sample time, switched
-/// on while the plant stands. (From anywhere, single precision would lose its covariance.) Sensors
-/// without a noise, or late by more than a tenth of a sample, are refused.
+/// The filter alone, with this damper in each strut and all uncertainties stated: what an ECU runs
+/// at this sample time, switched on while the plant stands. (From anywhere, single precision would
+/// lose its covariance.) Sensors without a noise, or late by more than a tenth of a sample, are
+/// refused.
 PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                             InPlantSetup setup, double sample_time, const ObserveOptions& options);
 

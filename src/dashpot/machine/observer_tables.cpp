@@ -1,6 +1,7 @@
 #include "dashpot/machine/observer_tables.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "dashpot/error.h"
@@ -27,7 +28,8 @@ struct StepMatrices {
 
 StepMatrices step_matrices(const DrivenPlant& plant, std::size_t acting, double h) {
   // One exponential of A with B and R beside it, and a ramp behind these.
-  const std::size_t n = plant.size(), p = 2 * n, whole = p + 3 * acting;
+  const std::size_t n = plant.size(), p = 2 * n, whole = p + 3 * acting,
+                    inputs = acting - plant.dampers().size();
   std::vector<double> block(whole * whole);
   for (std::size_t i = 0; i < n; ++i) {
     double* row = &block[(n + i) * whole];
@@ -36,11 +38,12 @@ StepMatrices step_matrices(const DrivenPlant& plant, std::size_t acting, double 
       row[k] = -h * plant.stiffness()[i * n + k];
       row[n + k] = -h * plant.damping()[i * n + k];
     }
-    for (std::size_t u = 0; u + 1 < acting; ++u) {
+    for (std::size_t u = 0; u < inputs; ++u) {
       row[p + u] = h * plant.by_value()[u][i];
       row[p + 2 * acting + u] = h * plant.by_rate()[u][i];
     }
-    row[p + acting - 1] = -h * plant.damper().by_force[i];
+    for (std::size_t d = 0; d < plant.dampers().size(); ++d)
+      row[p + inputs + d] = -h * plant.dampers()[d].by_force[i];
   }
   for (std::size_t u = 0; u < acting; ++u) block[(p + u) * whole + p + acting + u] = h;
   const std::vector<double> over = exponential(block, whole);
@@ -77,19 +80,20 @@ std::vector<double> response_to(const StepMatrices& m, std::size_t p, std::size_
 }
 
 /// What each sensor shows, as rows over the plant's state, inputs, their rates, roads and the
-/// force.
+/// forces.
 void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const ObserverNoise& noise,
                  double road_rate_variance, ObserverTables& t) {
   const std::size_t n = plant.size(), p = 2 * n, inputs = static_cast<std::size_t>(t.inputs),
-                    roads = static_cast<std::size_t>(t.roads), sensors = setup.sensors.size();
+                    roads = static_cast<std::size_t>(t.roads), sensors = setup.sensors.size(),
+                    dampers = plant.dampers().size();
   t.sensor_plant.resize(sensors * p);
   t.sensor_input.resize(sensors * inputs);
   t.sensor_slope.resize(sensors * inputs);
   t.sensor_road.resize(sensors * roads);
-  t.sensor_force.resize(sensors);
+  t.sensor_force.resize(sensors * dampers);
   for (std::size_t s = 0; s < sensors; ++s) {
     const PlantQuantity quantity = setup.sensors[s].place.quantity;
-    const std::size_t q = setup.sensors[s].place.coordinate;
+    const std::size_t q = setup.sensors[s].place.coordinate, strut = setup.sensors[s].place.strut;
     double* state = &t.sensor_plant[s * p];
     t.sensor_variance.push_back(noise.sensors[s] * noise.sensors[s]);
     switch (quantity) {
@@ -115,19 +119,20 @@ void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const Obse
           t.sensor_variance.back() +=
               std::pow(plant.by_rate()[inputs + r][q], 2) * road_rate_variance;
         }
-        t.sensor_force[s] = -plant.damper().by_force[q];
+        for (std::size_t d = 0; d < dampers; ++d)
+          t.sensor_force[s * dampers + d] = -plant.dampers()[d].by_force[q];
         break;
       case PlantQuantity::Deflection:
       case PlantQuantity::DeflectionVelocity: {
         const bool is_rate = quantity == PlantQuantity::DeflectionVelocity;
-        for (std::size_t k = 0; k < n; ++k) state[(is_rate ? n : 0) + k] = plant.damper().row[k];
+        const DamperPlace& place = plant.dampers()[strut];
+        for (std::size_t k = 0; k < n; ++k) state[(is_rate ? n : 0) + k] = place.row[k];
         for (std::size_t u = 0; u < inputs; ++u)
-          (is_rate ? t.sensor_slope : t.sensor_input)[s * inputs + u] =
-              -plant.damper().on_ground[u];
+          (is_rate ? t.sensor_slope : t.sensor_input)[s * inputs + u] = -place.on_ground[u];
         break;
       }
       case PlantQuantity::DamperForce:
-        t.sensor_force[s] = 1;
+        t.sensor_force[s * dampers + strut] = 1;
         break;
     }
   }
@@ -177,7 +182,20 @@ ObserverScale observer_scale(const DamperModel& damper, const Domain& of_data) {
   return scale;
 }
 
-ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& damper,
+ObserverScale observer_scale(const ObservedDampers& dampers) {
+  ObserverScale all;
+  for (const ObservedDamper& one : dampers) {
+    const ObserverScale own = observer_scale(*one.model, one.domain);
+    all.stroke = std::max(all.stroke, own.stroke);
+    all.speed = std::max(all.speed, own.speed);
+    all.force = std::max(all.force, own.force);
+    all.state.insert(all.state.end(), own.state.begin(), own.state.end());
+  }
+  return all;
+}
+
+ObserverTables observer_tables(const InPlantSetup& setup,
+                               const std::vector<std::shared_ptr<const DamperModel>>& dampers,
                                const ObserverNoise& noise, const ObserverScale& scale,
                                double sample_time, int steps) {
   if (!setup.unknown.empty())
@@ -189,12 +207,13 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
   for (const PlantInputChannel& input : inputs) places.push_back(input.place);
   const Plant plant = make_plant(*setup.model, setup.known);
   const DrivenPlant equations(plant, places);
-  const std::size_t n = plant.size(), p = 2 * n, acting = inputs.size() + 1;
+  const std::size_t n = plant.size(), p = 2 * n, acting = inputs.size() + dampers.size();
+  assert(equations.dampers().size() == dampers.size());
 
   // The plant over a step.
   ObserverTables t{.plant = static_cast<int>(p),
+                   .dampers = static_cast<int>(dampers.size()),
                    .errors = static_cast<int>(noise.force.size()),
-                   .damper = static_cast<int>(damper.state_size()),
                    .sensors = static_cast<int>(setup.sensors.size()),
                    .steps = steps,
                    .step = sample_time / steps};
@@ -203,9 +222,12 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
   t.inputs = static_cast<int>(inputs.size()) - t.roads;
   const auto measured = static_cast<std::size_t>(t.inputs), roads = inputs.size() - measured;
   StepMatrices matrices = step_matrices(equations, acting, t.step);
-  t.deflection = equations.damper().row;
-  const std::vector<double>& on_ground = equations.damper().on_ground;
-  t.on_ground.assign(on_ground.begin(), on_ground.begin() + static_cast<std::ptrdiff_t>(measured));
+  for (const DamperPlace& place : equations.dampers()) {
+    t.deflection.insert(t.deflection.end(), place.row.begin(), place.row.end());
+    t.on_ground.insert(t.on_ground.end(), place.on_ground.begin(),
+                       place.on_ground.begin() + static_cast<std::ptrdiff_t>(measured));
+  }
+  for (const auto& damper : dampers) t.damper.push_back(static_cast<int>(damper->state_size()));
 
   // What a sample adds to the uncertainty: a road goes on at random, the force's errors likewise,
   // and what is measured of an input is not quite what it was.
@@ -233,12 +255,13 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
     road_rate_variance = added / (sample_time * sample_time);
     road_deviation = std::sqrt(0.5 * density / (2 * forgetting));
   }
-  for (std::size_t e = 0; e < noise.force.size(); ++e) {
-    const auto [deviation, memory] = noise.force[e];
-    t.force_keep.push_back(std::exp(-t.step / memory));
-    add(response(acting - 1, 0, 1), error + e,
-        deviation * deviation * -std::expm1(-2 * sample_time / memory));
-  }
+  for (const ForceError& one : noise.force) t.force_keep.push_back(std::exp(-t.step / one.memory));
+  for (std::size_t d = 0; d < dampers.size(); ++d)
+    for (std::size_t e = 0; e < noise.force.size(); ++e) {
+      const auto [deviation, memory] = noise.force[e];
+      add(response(inputs.size() + d, 0, 1), error + d * noise.force.size() + e,
+          deviation * deviation * -std::expm1(-2 * sample_time / memory));
+    }
   for (std::size_t u = 0; u < measured; ++u)
     if (inputs[u].noise > 0) add(response(u, 1, 1), moving, inputs[u].noise * inputs[u].noise);
 
@@ -247,7 +270,8 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
   for (std::size_t k = 0; k < p; ++k)
     t.difference.push_back(kDifference * (k < n ? scale.stroke : scale.speed));
   for (std::size_t r = 0; r < roads; ++r) t.difference.push_back(kDifference * scale.stroke);
-  t.difference.insert(t.difference.end(), noise.force.size(), kDifference * scale.force);
+  t.difference.insert(t.difference.end(), dampers.size() * noise.force.size(),
+                      kDifference * scale.force);
   for (const double size : scale.state) t.difference.push_back(kDifference * size);
   t.way = kDifference * scale.stroke;
   t.speed = kDifference * scale.speed;
@@ -262,7 +286,8 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
     t.first_deviation.push_back(start * (k < n ? scale.stroke : scale.speed));
   for (std::size_t r = 0; r < roads; ++r)
     t.first_deviation.push_back(setup.from_rest ? start * scale.stroke : road_deviation);
-  for (const ForceError& one : noise.force) t.first_deviation.push_back(one.deviation);
+  for (std::size_t d = 0; d < dampers.size(); ++d)
+    for (const ForceError& one : noise.force) t.first_deviation.push_back(one.deviation);
   for (const double size : scale.state)
     t.first_deviation.push_back((setup.from_rest ? kDifference : 1) * size);
   t.first_deviation.insert(t.first_deviation.end(), scale.offset.begin(), scale.offset.end());
@@ -272,11 +297,11 @@ ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& dam
   return t;
 }
 
-ObserverNames observer_names(const InPlantSetup& setup, const DamperModel& damper) {
-  ObserverNames names{.plant = std::string(setup.model->name),
-                      .damper = damper.name(),
-                      .drive_unit = setup.drive_unit};
+ObserverNames observer_names(const InPlantSetup& setup, const std::string& damper) {
+  ObserverNames names{
+      .plant = std::string(setup.model->name), .damper = damper, .drive_unit = setup.drive_unit};
   const Plant plant = make_plant(*setup.model, setup.known);
+  for (const Strut& strut : plant.struts) names.struts.push_back(strut.name);
   for (const auto& [suffix, rate] : {std::pair{"", ""}, std::pair{"_velocity", "/s"}})
     for (const Coordinate& coordinate : plant.coordinates) {
       names.states.push_back(coordinate.name + suffix);

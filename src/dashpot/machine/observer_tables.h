@@ -14,30 +14,41 @@ struct ForceError {
   double memory = 0;     ///< s, in which it is forgotten
 };
 
-/// What is uncertain of a plant with a known damper, as standard deviations, SI.
+/// What is uncertain of a plant with known dampers, as standard deviations, SI.
 struct ObserverNoise {
-  std::vector<ForceError> force;  ///< of the damper's model, their sum
+  std::vector<ForceError> force;  ///< of a damper's model, their sum; of this size in each damper
   std::vector<double> sensors;    ///< per sensor, white
   double roughness = 0;           ///< m^3, G_d(n0) of a road that nothing measures
 };
 
+/// A damper in a plant, and the domain of its data.
+struct ObservedDamper {
+  std::shared_ptr<const DamperModel> model;
+  Domain domain;
+};
+/// In the order of the plant's struts.
+using ObservedDampers = std::vector<ObservedDamper>;
+
 /// How large the motion is, for the steps of differences and for what is not known at the start.
 struct ObserverScale {
-  double stroke = 0, speed = 0, force = 0;  ///< m, m/s, N: half spans of the damper's
-  std::vector<double> state;                ///< of each number of the damper's state
+  double stroke = 0, speed = 0, force = 0;  ///< m, m/s, N: half spans, of several dampers the
+                                            ///< greatest
+  std::vector<double> state;                ///< of each number of each damper's state
   std::vector<double> offset;               ///< per sensor
 };
 /// By moving the model through its domain, or usual_domain() where that says no motion.
 ObserverScale observer_scale(const DamperModel& damper, const Domain& domain);
+ObserverScale observer_scale(const ObservedDampers& dampers);
 
 /// The filter of this plant. Heights of a road that nothing measures follow
 ///   w' = -2 pi n_c V w + 2 pi n0 sqrt(G_d(n0) V) xi,  n_c = 0.01 cycle/m,
-/// whose density is that of ISO 8608 above n_c. Throws Error where numbers of the plant are
-/// unknown.
-ObserverTables observer_tables(const InPlantSetup& setup, const DamperModel& damper,
+/// whose density is that of ISO 8608 above n_c. There are as many models as the plant has dampers.
+/// Throws Error where numbers of the plant are unknown.
+ObserverTables observer_tables(const InPlantSetup& setup,
+                               const std::vector<std::shared_ptr<const DamperModel>>& dampers,
                                const ObserverNoise& noise, const ObserverScale& scale,
                                double sample_time, int steps);
-ObserverNames observer_names(const InPlantSetup& setup, const DamperModel& damper);
+ObserverNames observer_names(const InPlantSetup& setup, const std::string& damper);
 
 /// The channels of the inputs that are measured, in the order of the filter.
 std::vector<std::string> measured_inputs(const InPlantSetup& setup);

@@ -112,11 +112,6 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> in
   }
 }
 
-const DamperPlace& DrivenPlant::damper() const {
-  assert(dampers_.size() == 1);
-  return dampers_.front();
-}
-
 std::vector<double> DrivenPlant::at_rest(const DamperModel& damper, double drive) const {
   const std::size_t own = damper.state_size();
   std::vector<double> state(2 * size_ + dampers_.size() * own);

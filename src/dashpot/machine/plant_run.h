@@ -112,8 +112,6 @@ class DrivenPlant {
 
   std::size_t size() const { return size_; }
   const std::vector<DamperPlace>& dampers() const { return dampers_; }
-  /// The only one, for whoever knows no more.
-  const DamperPlace& damper() const;
 
   /// Coordinates, velocities and the states of such dampers, with these at rest.
   std::vector<double> at_rest(const DamperModel& damper, double drive) const;

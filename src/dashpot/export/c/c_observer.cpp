@@ -69,13 +69,16 @@ Outputs outputs_of(const PlantObserver& observer, const ObserverNames& names) {
   const ObserverTables& t = observer.tables();
   const double force = kPerDifference * t.difference[static_cast<std::size_t>(t.plant + t.roads)];
   Outputs outputs;
-  outputs.add("damper_force", "N", "force of the damper, positive when it resists extension",
-              force);
-  outputs.add("damper_force_deviation", "N", "standard deviation of that", force);
-  outputs.add("damper_deflection", "m", "of the damper, extension positive",
-              kPerDifference * t.way);
-  outputs.add("damper_velocity", "m/s", "of the damper, extension positive",
-              kPerDifference * t.speed);
+  for (const std::string& strut : names.struts) {
+    const std::string whose = names.struts.size() > 1 ? strut + "_" : "";
+    outputs.add(whose + "damper_force", "N",
+                "force of the damper, positive when it resists extension", force);
+    outputs.add(whose + "damper_force_deviation", "N", "standard deviation of that", force);
+    outputs.add(whose + "damper_deflection", "m", "of the damper, extension positive",
+                kPerDifference * t.way);
+    outputs.add(whose + "damper_velocity", "m/s", "of the damper, extension positive",
+                kPerDifference * t.speed);
+  }
   for (std::size_t k = 0; k < names.states.size(); ++k)
     outputs.add("state_" + names.states[k], names.state_units[k], "of the plant",
                 kPerDifference * t.difference[k]);
@@ -98,12 +101,14 @@ std::string filter_code(const ObserverTables& t) {
     places += std::string(", ") + name;
   }
   code += c_table("kFirstDeviation", t.first_deviation);
-  std::string sizes;
-  for (const int size : {t.plant, t.inputs, t.roads, t.errors, t.damper, t.sensors, t.steps})
+  std::string sizes, own;
+  for (const int size : {t.plant, t.inputs, t.roads, t.dampers, t.errors, t.sensors, t.steps})
     sizes += std::to_string(size) + ", ";
-  return code + "static const PlantFilter kFilter = {" + sizes + c_number(t.step) + ", " +
-         c_number(t.road_keep) + places + ", " + c_number(t.way) + ", " + c_number(t.speed) +
-         "};\n\n";
+  for (const int size : t.damper) own += (own.empty() ? "" : ", ") + std::to_string(size);
+  return code + "static const int kDamper[] = {" + own +
+         "};\n\nstatic const PlantFilter kFilter = {" + sizes + c_number(t.step) + ", " +
+         c_number(t.road_keep) + ", kDamper" + places + ", " + c_number(t.way) + ", " +
+         c_number(t.speed) + "};\n\n";
 }
 
 /// A run of signals that are large beside the sensors' noise, and what the library makes of it.
@@ -132,13 +137,15 @@ std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
       observer.start(now, measured, {}, estimate, covariance, told);
     else
       observer.step(before, now, measured, estimate, covariance, told);
-    const PlantObserver::Damper damper =
-        observer.damper_at(k == 0 ? now : before, now, estimate, covariance);
-
     CBlock::Sample sample{.inputs = now, .commands = {}};
     if (inputs == 0) sample.inputs.insert(sample.inputs.begin(), 0.0);
     sample.inputs.insert(sample.inputs.end(), measured.begin(), measured.end());
-    sample.commands = {damper.force, damper.deviation, damper.deflection, damper.velocity};
+    for (std::size_t d = 0; d < names.struts.size(); ++d) {
+      const PlantObserver::Damper damper =
+          observer.damper_at(d, k == 0 ? now : before, now, estimate, covariance);
+      sample.commands.insert(sample.commands.end(),
+                             {damper.force, damper.deviation, damper.deflection, damper.velocity});
+    }
     sample.commands.insert(sample.commands.end(), estimate.begin(),
                            estimate.begin() + t.plant + t.roads);
     samples.push_back(std::move(sample));
@@ -159,13 +166,15 @@ std::string listed(const std::vector<std::string>& names, const std::vector<std:
 CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& names,
                         const ExportOptions& options) {
   const ObserverTables& t = observer.tables();
-  const auto* law = model_as<LawModel>(observer.damper());
+  const DamperModel& damper = *observer.dampers().front();
+  const auto* law = model_as<LawModel>(damper);
   const std::string stem = law ? "observed" : "model";
   const std::size_t all = t.all(), inputs = std::max<std::size_t>(1, names.inputs.size()),
                     size = all + all * all + static_cast<std::size_t>(t.inputs) + 1;
   const Outputs outputs = outputs_of(observer, names);
   const std::string unit = to_string(names.drive_unit),
-                    title = "Observer of a " + names.plant + " with the damper " + names.damper;
+                    title = "Observer of a " + names.plant + " with the damper " + names.damper +
+                            (t.dampers > 1 ? " in each strut" : "");
   const std::string about =
       "From what is measured at each sample: the damper's force and motion and the plant's state, "
       "as the past allows. It begins in a plant that stands. Everything is in SI. An extended "
@@ -198,19 +207,20 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
       "#define OBSERVED_REST @stem@_rest\n#define OBSERVED_ADVANCE @stem@_advance\n"
       "#define OBSERVED_FORCE @stem@_force\n#define FILTER_MOST @all@\n"
       "#define FILTER_MOST_SENSORS @sensors@\n#define FILTER_MOST_INPUTS @inputs@\n"
-      "#define FILTER_MOST_DAMPER @damper@\n\n",
+      "#define FILTER_MOST_DAMPERS @dampers@\n#define FILTER_MOST_DAMPER @damper@\n\n",
       {{"stem", CText::own(stem)},
        {"all", number(all)},
        {"sensors", number(names.sensors.size())},
        {"inputs", number(inputs)},
-       {"damper", number(std::max<std::size_t>(1, static_cast<std::size_t>(t.damper)))}});
-  const std::string code = (law ? c_law(*law, stem) : c_model(observer.damper())).code;
+       {"dampers", number(names.struts.size())},
+       {"damper", number(std::max<std::size_t>(1, damper.state_size()))}});
+  const std::string code = (law ? c_law(*law, stem) : c_model(damper)).code;
 
   // The interface port by port, and the run that checks it.
   std::vector<CPort> ports = {
       {"input", "", "what moves the plant: " + listed(names.inputs, names.input_units), "inputs[#]",
        inputs},
-      {"drive", unit, "of the damper", "drive"},
+      {"drive", unit, t.dampers > 1 ? "of the dampers" : "of the damper", "drive"},
       {"sensor", "", "what is measured: " + listed(names.sensors, names.sensor_units), "sensors[#]",
        names.sensors.size()}};
   const auto parts = [](const std::vector<std::string>& of, const std::vector<std::string>& units) {

@@ -10,37 +10,40 @@ namespace dashpot {
 namespace {
 
 constexpr int FILTER_MOST = kMostObserved, FILTER_MOST_SENSORS = kMostObservedSensors,
-              FILTER_MOST_INPUTS = kMostObservedInputs, FILTER_MOST_DAMPER = kMostObservedDamper;
+              FILTER_MOST_INPUTS = kMostObservedInputs, FILTER_MOST_DAMPERS = kMostObservedDampers,
+              FILTER_MOST_DAMPER = kMostObservedDamper;
 
 #include "dashpot/suspension/observe/c_text/plant_filter.h"
 
-/// The text's struct with the model that its functions step.
-struct FilterWithDamper : PlantFilter {
-  const DamperModel* model = nullptr;
+/// The text's struct with the models that its functions step.
+struct FilterWithDampers : PlantFilter {
+  const std::shared_ptr<const DamperModel>* models = nullptr;
 };
 
-inline double filter_force(const PlantFilter* f, const DamperInput* input, const double* z) {
-  return static_cast<const FilterWithDamper*>(f)->model->force(
-      *input, {z, static_cast<std::size_t>(f->damper)});
+inline double filter_force(const PlantFilter* f, int d, const DamperInput* input, const double* z) {
+  return static_cast<const FilterWithDampers*>(f)->models[d]->force(
+      *input, {z, static_cast<std::size_t>(f->damper[d])});
 }
 
-inline void filter_advance(const PlantFilter* f, const DamperInput* from, const DamperInput* to,
-                           double dt, double* z) {
-  static_cast<const FilterWithDamper*>(f)->model->advance(*from, *to, dt,
-                                                          {z, static_cast<std::size_t>(f->damper)});
+inline void filter_advance(const PlantFilter* f, int d, const DamperInput* from,
+                           const DamperInput* to, double dt, double* z) {
+  static_cast<const FilterWithDampers*>(f)->models[d]->advance(
+      *from, *to, dt, {z, static_cast<std::size_t>(f->damper[d])});
 }
 
-FilterWithDamper filter_of(const ObserverTables& t, const DamperModel& model) {
-  FilterWithDamper f;
+FilterWithDampers filter_of(const ObserverTables& t,
+                            const std::vector<std::shared_ptr<const DamperModel>>& models) {
+  FilterWithDampers f;
   static_cast<PlantFilter&>(f) = {.plant = t.plant,
                                   .inputs = t.inputs,
                                   .roads = t.roads,
+                                  .dampers = t.dampers,
                                   .errors = t.errors,
-                                  .damper = t.damper,
                                   .sensors = t.sensors,
                                   .steps = t.steps,
                                   .step = t.step,
                                   .road_keep = t.road_keep,
+                                  .damper = t.damper.data(),
                                   .force_keep = t.force_keep.data(),
                                   .transition = t.transition.data(),
                                   .by_start = t.by_start.data(),
@@ -57,7 +60,7 @@ FilterWithDamper filter_of(const ObserverTables& t, const DamperModel& model) {
                                   .difference = t.difference.data(),
                                   .way = t.way,
                                   .speed = t.speed};
-  f.model = &model;
+  f.models = models.data();
   return f;
 }
 
@@ -71,19 +74,23 @@ void keep(const ObserverTables& t, const FilterSample& told, bool moved, Observe
 
 }  // namespace
 
-PlantObserver::PlantObserver(ObserverTables tables, std::shared_ptr<const DamperModel> damper)
-    : tables_(std::move(tables)), damper_(std::move(damper)) {
-  if (!damper_->flows())
-    throw Error(damper_->name(), "its states have no rates: a filter cannot follow them",
-                "a law, a hybrid, or a network without a feedback of its force");
+PlantObserver::PlantObserver(ObserverTables tables,
+                             std::vector<std::shared_ptr<const DamperModel>> dampers)
+    : tables_(std::move(tables)), dampers_(std::move(dampers)) {
+  for (const auto& damper : dampers_)
+    if (!damper->flows())
+      throw Error(damper->name(), "its states have no rates: a filter cannot follow them",
+                  "a law, a hybrid, or a network without a feedback of its force");
   const auto require = [](std::size_t count, std::size_t most, const std::string& what) {
     if (count > most)
       throw Error("observer", "has " + std::to_string(count) + " " + what,
                   "at most " + std::to_string(most));
   };
   require(tables_.all(), kMostObserved,
-          "numbers to estimate (of plant, damper and sensors' offsets)");
-  require(damper_->state_size(), kMostObservedDamper, "numbers of the damper's state");
+          "numbers to estimate (of plant, dampers and sensors' offsets)");
+  require(dampers_.size(), kMostObservedDampers, "dampers");
+  for (const auto& damper : dampers_)
+    require(damper->state_size(), kMostObservedDamper, "numbers of a damper's state");
   require(static_cast<std::size_t>(tables_.sensors), kMostObservedSensors, "sensors");
   require(static_cast<std::size_t>(tables_.inputs), kMostObservedInputs, "inputs");
 }
@@ -92,10 +99,14 @@ void PlantObserver::start(std::span<const double> now, std::span<const double> m
                           std::span<const double> about, std::span<double> estimate,
                           std::span<double> covariance, ObservedSample& sample) const {
   constexpr double kKnown = 0.1;
-  const std::size_t all = tables_.all(), own = tables_.moving() - damper_->state_size();
+  const std::size_t all = tables_.all();
   std::ranges::fill(estimate, 0.0);
   std::ranges::fill(covariance, 0.0);
-  damper_->rest({0, 0, now.back()}, estimate.subspan(own, damper_->state_size()));
+  std::size_t own = tables_.own();
+  for (const auto& damper : dampers_) {
+    damper->rest({0, 0, now.back()}, estimate.subspan(own, damper->state_size()));
+    own += damper->state_size();
+  }
   std::ranges::copy(about, estimate.begin());
   const auto plant = static_cast<std::size_t>(tables_.plant);
   for (std::size_t k = 0; k < all; ++k) {
@@ -105,7 +116,7 @@ void PlantObserver::start(std::span<const double> now, std::span<const double> m
     covariance[k * all + k] = deviation * deviation;
   }
 
-  const FilterWithDamper f = filter_of(tables_, *damper_);
+  const FilterWithDampers f = filter_of(tables_, dampers_);
   FilterSample told;
   filter_update(&f, now.data(), now.data(), measured.data(), estimate.data(), covariance.data(),
                 &told);
@@ -115,7 +126,7 @@ void PlantObserver::start(std::span<const double> now, std::span<const double> m
 void PlantObserver::step(std::span<const double> before, std::span<const double> now,
                          std::span<const double> measured, std::span<double> estimate,
                          std::span<double> covariance, ObservedSample& sample) const {
-  const FilterWithDamper f = filter_of(tables_, *damper_);
+  const FilterWithDampers f = filter_of(tables_, dampers_);
   FilterSample told;
   filter_predict(&f, before.data(), now.data(), estimate.data(), covariance.data(),
                  told.transition);
@@ -124,13 +135,14 @@ void PlantObserver::step(std::span<const double> before, std::span<const double>
   keep(tables_, told, true, sample);
 }
 
-PlantObserver::Damper PlantObserver::damper_at(std::span<const double> before,
+PlantObserver::Damper PlantObserver::damper_at(std::size_t damper, std::span<const double> before,
                                                std::span<const double> now,
                                                std::span<const double> estimate,
                                                std::span<const double> covariance) const {
-  const FilterWithDamper f = filter_of(tables_, *damper_);
+  const FilterWithDampers f = filter_of(tables_, dampers_);
   double out[4];
-  filter_damper(&f, before.data(), now.data(), estimate.data(), covariance.data(), out);
+  filter_damper(&f, static_cast<int>(damper), before.data(), now.data(), estimate.data(),
+                covariance.data(), out);
   return {out[0], out[1], out[2], out[3]};
 }
 

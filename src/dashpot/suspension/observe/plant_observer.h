@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,15 +11,17 @@
 
 namespace dashpot {
 
-/// The most numbers of an estimate, sensors, measured inputs and numbers of a damper's state.
-constexpr std::size_t kMostObserved = 32, kMostObservedSensors = 12, kMostObservedInputs = 8,
-                      kMostObservedDamper = 12;
+/// The most numbers of an estimate, sensors, measured inputs, dampers and numbers of the state of
+/// one.
+constexpr std::size_t kMostObserved = 64, kMostObservedSensors = 12, kMostObservedInputs = 8,
+                      kMostObservedDampers = 4, kMostObservedDamper = 12;
 
 /// The tables of a filter of a plant, as c_text/plant_filter.h names and orders them. SI.
 struct ObserverTables {
-  int plant = 0, inputs = 0, roads = 0, errors = 0, damper = 0, sensors = 0, steps = 1;
+  int plant = 0, inputs = 0, roads = 0, dampers = 1, errors = 0, sensors = 0, steps = 1;
   double step = 0;  ///< s
   double road_keep = 1;
+  std::vector<int> damper;  ///< numbers of each one's state
   std::vector<double> force_keep, transition, by_start, by_end, deflection, on_ground;
   std::vector<double> sensor_plant, sensor_input, sensor_slope, sensor_road, sensor_force;
   std::vector<double> sensor_variance, process, difference;
@@ -26,7 +29,11 @@ struct ObserverTables {
   std::vector<double>
       first_deviation;  ///< of every number of the estimate, before the first sample
 
-  std::size_t moving() const { return static_cast<std::size_t>(plant + roads + errors + damper); }
+  /// Where the states of the dampers begin.
+  std::size_t own() const { return static_cast<std::size_t>(plant + roads + dampers * errors); }
+  std::size_t moving() const {
+    return own() + static_cast<std::size_t>(std::accumulate(damper.begin(), damper.end(), 0));
+  }
   std::size_t all() const { return moving() + static_cast<std::size_t>(sensors); }
 };
 
@@ -36,6 +43,7 @@ struct ObserverNames {
   std::vector<std::string> states, state_units;  ///< of the plant and the roads
   std::vector<std::string> sensors, sensor_units;
   std::vector<std::string> inputs, input_units;
+  std::vector<std::string> struts;  ///< one per damper
   std::string plant, damper;
   DriveUnit drive_unit = DriveUnit::None;
 };
@@ -48,19 +56,19 @@ struct ObservedSample {
   std::vector<double> variance;    ///< of it; 0: the sensor showed no number
 };
 
-/// An extended Kalman filter of a linear plant with one damper in it: the state of the plant, the
-/// road where nothing measures it, the damper's own state, errors of its force that come and go,
-/// and an offset per sensor, from what the sensors show. The same text is the exported C.
+/// An extended Kalman filter of a linear plant with dampers in it: the state of the plant, the road
+/// where nothing measures it, each damper's own state and errors of its force that come and go, and
+/// an offset per sensor, from what the sensors show. The same text is the exported C.
 /// Immutable; estimate (all() numbers) and covariance (all() x all()) are the caller's.
 /// Source: R. E. Kalman 1960; A. Gelb, Applied Optimal Estimation, 1974, for the extended one.
 class PlantObserver {
  public:
-  /// Throws Error where the damper's states have no rates, so that nothing can be said of small
+  /// Throws Error where a damper's states have no rates, so that nothing can be said of small
   /// changes of them, and where there are more numbers than kMostObserved...
-  PlantObserver(ObserverTables tables, std::shared_ptr<const DamperModel> damper);
+  PlantObserver(ObserverTables tables, std::vector<std::shared_ptr<const DamperModel>> dampers);
 
   const ObserverTables& tables() const { return tables_; }
-  const DamperModel& damper() const { return *damper_; }
+  const std::vector<std::shared_ptr<const DamperModel>>& dampers() const { return dampers_; }
 
   /// The first sample. `now`: the measured inputs, then the drive; `measured`: per sensor; `about`:
   /// the plant and its roads, where velocities are known to a tenth; empty: they are not.
@@ -71,16 +79,16 @@ class PlantObserver {
   void step(std::span<const double> before, std::span<const double> now,
             std::span<const double> measured, std::span<double> estimate,
             std::span<double> covariance, ObservedSample& sample) const;
-  /// Force of the damper, N, with its standard deviation, deflection m and its rate m/s.
+  /// Force of a damper, N, with its standard deviation, deflection m and its rate m/s.
   struct Damper {
     double force = 0, deviation = 0, deflection = 0, velocity = 0;
   };
-  Damper damper_at(std::span<const double> before, std::span<const double> now,
+  Damper damper_at(std::size_t damper, std::span<const double> before, std::span<const double> now,
                    std::span<const double> estimate, std::span<const double> covariance) const;
 
  private:
   ObserverTables tables_;
-  std::shared_ptr<const DamperModel> damper_;
+  std::vector<std::shared_ptr<const DamperModel>> dampers_;
 };
 
 }  // namespace dashpot

@@ -1,11 +1,15 @@
-static inline double filter_force(const PlantFilter* f, const DamperInput* input, const double* z) {
+/* The dampers are all alike. */
+static inline double filter_force(const PlantFilter* f, int d, const DamperInput* input,
+                                  const double* z) {
   (void)f;
+  (void)d;
   return OBSERVED_FORCE(input, z);
 }
 
-static inline void filter_advance(const PlantFilter* f, const DamperInput* from,
+static inline void filter_advance(const PlantFilter* f, int d, const DamperInput* from,
                                   const DamperInput* to, double dt, double* z) {
   (void)f;
+  (void)d;
   OBSERVED_ADVANCE(from, to, dt, z);
 }
 
@@ -37,7 +41,9 @@ void damper_reset(damper_model* model, const damper_input* input) {
   still.displacement = 0;
   still.velocity = 0;
   still.current = before[kFilter.inputs];
-  OBSERVED_REST(&still, &model->state[filter_own(&kFilter)]);
+  for (k = 0; k < kFilter.dampers; ++k) {
+    OBSERVED_REST(&still, &model->state[filter_own(&kFilter, k)]);
+  }
   for (k = 0; k < FILTER_MOST; ++k) {
     c[(k * FILTER_MOST) + k] = kFirstDeviation[k] * kFirstDeviation[k];
   }
@@ -60,9 +66,11 @@ void damper_step(damper_model* model, const damper_input* input, double* outputs
     filter_predict(&kFilter, before, now, s, c, sample.transition);
   }
   filter_update(&kFilter, before, now, input->sensors, s, c, &sample);
-  filter_damper(&kFilter, before, now, s, c, outputs);
-  for (k = 0; k < filter_error(&kFilter); ++k) {
-    outputs[4 + k] = s[k];
+  for (k = 0; k < kFilter.dampers; ++k) {
+    filter_damper(&kFilter, k, before, now, s, c, &outputs[4 * k]);
+  }
+  for (k = 0; k < filter_error(&kFilter, 0); ++k) {
+    outputs[(4 * kFilter.dampers) + k] = s[k];
   }
   for (k = 0; k <= kFilter.inputs; ++k) {
     before[k] = now[k];

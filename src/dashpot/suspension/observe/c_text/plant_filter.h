@@ -1,41 +1,42 @@
-/* An extended Kalman filter of a linear plant with one damper in it, as C99 text that the library
+/* An extended Kalman filter of a linear plant with dampers in it, as C99 text that the library
  * takes in and the C export ships. Declared before: DamperInput; FILTER_MOST, the most numbers of
- * an estimate, FILTER_MOST_SENSORS, FILTER_MOST_INPUTS and FILTER_MOST_DAMPER; and of the damper's
- * model double filter_force(const PlantFilter* f, const DamperInput* input, const double* z) void
- * filter_advance(const PlantFilter* f, const DamperInput* from, const DamperInput* to, double dt,
- * double* z) which may be defined behind it.
+ * an estimate, FILTER_MOST_SENSORS, FILTER_MOST_INPUTS, FILTER_MOST_DAMPERS and FILTER_MOST_DAMPER,
+ * the most numbers of a damper's state. filter_force and filter_advance, which step the model of
+ * damper d, may be defined behind it.
  *
  * An estimate s: coordinates of the plant and their velocities; heights of the road where nothing
- * measures it; errors of the damper's force, N, that are forgotten sooner or later; the damper's
- * own state; the sensors' offsets. All but the offsets move. Its covariance c: a row per number. */
+ * measures it; damper by damper errors of its force, N, that are forgotten sooner or later; damper
+ * by damper its own state; the sensors' offsets. All but the offsets move. Its covariance c: a row
+ * per number. */
 #ifndef DASHPOT_PLANT_FILTER_H
 #define DASHPOT_PLANT_FILTER_H
 
 typedef struct PlantFilter {
-  int plant;                /* coordinates and velocities: two per degree of freedom */
-  int inputs;               /* that are measured; the drive of the damper stands behind them */
-  int roads;                /* heights that nothing measures */
-  int errors;               /* of the damper's force, at least one */
-  int damper;               /* numbers of the damper's state */
-  int sensors;              /* each with an offset */
-  int steps;                /* per sample */
-  double step;              /* s */
-  double road_keep;         /* the share of a road's height that is left after a step */
-  const double* force_keep; /* errors: the share that is left after a step */
-  const double* transition; /* plant x plant, over a step */
-  const double* by_start; /* plant x (inputs + roads + 1): of inputs, roads and force as they are */
-  const double* by_end;   /* at the start and at the end of a step, straight lines in between */
-  const double* deflection;   /* plant / 2: the damper's way */
-  const double* on_ground;    /* inputs: what an input takes from it */
+  int plant;                  /* coordinates and velocities: two per degree of freedom */
+  int inputs;                 /* that are measured; the drive of the dampers stands behind them */
+  int roads;                  /* heights that nothing measures */
+  int dampers;                /* at least one */
+  int errors;                 /* of each damper's force, at least one */
+  int sensors;                /* each with an offset */
+  int steps;                  /* per sample */
+  double step;                /* s */
+  double road_keep;           /* the share of a road's height that is left after a step */
+  const int* damper;          /* dampers: numbers of its state */
+  const double* force_keep;   /* errors: the share that is left after a step */
+  const double* transition;   /* plant x plant, over a step */
+  const double* by_start;     /* plant x (inputs + roads + dampers): of inputs, roads and forces */
+  const double* by_end;       /* as they are at both ends of a step, straight lines in between */
+  const double* deflection;   /* dampers x plant / 2: the damper's way */
+  const double* on_ground;    /* dampers x inputs: what an input takes from it */
   const double* sensor_plant; /* sensors x plant */
   const double* sensor_input; /* sensors x inputs: of their values */
   const double* sensor_slope; /* sensors x inputs: of their rates */
   const double* sensor_road;  /* sensors x roads */
-  const double* sensor_force; /* sensors: of the damper's force */
+  const double* sensor_force; /* sensors x dampers: of their forces */
   const double* sensor_variance;
   const double* process;    /* moving x moving: what a sample adds to the covariance */
   const double* difference; /* moving: the step of a difference by each number */
-  double way, speed;        /* the same of the damper's motion, m and m/s */
+  double way, speed;        /* the same of a damper's motion, m and m/s */
 } PlantFilter;
 
 /* What a sample told: rows of sensors x all, what the sensors showed beyond what was expected of
@@ -48,57 +49,79 @@ typedef struct FilterSample {
   double variance[FILTER_MOST_SENSORS];
 } FilterSample;
 
-static inline double filter_force(const PlantFilter* f, const DamperInput* input, const double* z);
-static inline void filter_advance(const PlantFilter* f, const DamperInput* from,
+/* A damper over a step: its motion and drive at both ends; what its force depends on there; and
+ * what its state behind the step does, a row per number. */
+typedef struct FilterDamper {
+  DamperInput first, last;
+  double by_first[FILTER_MOST_DAMPER + 2];
+  double by_last[FILTER_MOST_DAMPER + 2];
+  double by_state[FILTER_MOST_DAMPER * (FILTER_MOST_DAMPER + 4)];
+} FilterDamper;
+
+static inline double filter_force(const PlantFilter* f, int d, const DamperInput* input,
+                                  const double* z);
+static inline void filter_advance(const PlantFilter* f, int d, const DamperInput* from,
                                   const DamperInput* to, double dt, double* z);
 
-/* Where the errors of the force stand, and the damper's state behind them. */
-static inline int filter_error(const PlantFilter* f) { return f->plant + f->roads; }
+/* Where the errors of the force of damper d stand, and its own state; behind the last: the end. */
+static inline int filter_error(const PlantFilter* f, int d) {
+  return f->plant + f->roads + (d * f->errors);
+}
 
-static inline int filter_own(const PlantFilter* f) { return filter_error(f) + f->errors; }
+static inline int filter_own(const PlantFilter* f, int d) {
+  int place = filter_error(f, f->dampers), k;
+  for (k = 0; k < d; ++k) {
+    place += f->damper[k];
+  }
+  return place;
+}
 
-static inline int filter_moving(const PlantFilter* f) { return filter_own(f) + f->damper; }
+static inline int filter_moving(const PlantFilter* f) { return filter_own(f, f->dampers); }
 
 static inline int filter_all(const PlantFilter* f) { return filter_moving(f) + f->sensors; }
 
-/* The damper's motion and drive. */
-static inline void filter_input(const PlantFilter* f, const double* inputs, const double* slopes,
-                                const double* plant, DamperInput* at) {
+/* The motion of a damper and its drive. */
+static inline void filter_input(const PlantFilter* f, int d, const double* inputs,
+                                const double* slopes, const double* plant, DamperInput* at) {
   const int half = f->plant / 2;
+  const double* way = &f->deflection[d * half];
   int k;
   at->displacement = 0;
   at->velocity = 0;
   at->current = inputs[f->inputs];
   for (k = 0; k < half; ++k) {
-    at->displacement += f->deflection[k] * plant[k];
-    at->velocity += f->deflection[k] * plant[half + k];
+    at->displacement += way[k] * plant[k];
+    at->velocity += way[k] * plant[half + k];
   }
   for (k = 0; k < f->inputs; ++k) {
-    at->displacement -= f->on_ground[k] * inputs[k];
-    at->velocity -= f->on_ground[k] * slopes[k];
+    at->displacement -= f->on_ground[(d * f->inputs) + k] * inputs[k];
+    at->velocity -= f->on_ground[(d * f->inputs) + k] * slopes[k];
   }
 }
 
-/* All errors of the force, now and after a step. */
-static inline double filter_errors(const PlantFilter* f, const double* s, int after) {
+/* All errors of a damper's force, now and after a step. */
+static inline double filter_errors(const PlantFilter* f, int d, const double* s, int after) {
   double sum = 0;
   int k;
   for (k = 0; k < f->errors; ++k) {
-    sum += ((after != 0) ? f->force_keep[k] : 1) * s[filter_error(f) + k];
+    sum += ((after != 0) ? f->force_keep[k] : 1) * s[filter_error(f, d) + k];
   }
   return sum;
 }
 
-/* The plant after a step, under inputs and a force that go straight. */
+/* The plant after a step, under inputs and forces that go straight. */
 static inline void filter_linear(const PlantFilter* f, const double* from, const double* to,
-                                 const double* roads, double force_start, double force_end,
-                                 const double* plant, double* end) {
-  const int acting = f->inputs + f->roads + 1;
+                                 const double* roads, const double* force_start,
+                                 const double* force_end, const double* plant, double* end) {
+  const int first = f->inputs + f->roads, acting = first + f->dampers;
   int i, k;
   for (i = 0; i < f->plant; ++i) {
     const double* by_start = &f->by_start[i * acting];
     const double* by_end = &f->by_end[i * acting];
-    double sum = (by_start[acting - 1] * force_start) + (by_end[acting - 1] * force_end);
+    double sum = (by_start[first] * force_start[0]) + (by_end[first] * force_end[0]);
+    for (k = 1; k < f->dampers; ++k) {
+      sum += (by_start[first + k] * force_start[k]) + (by_end[first + k] * force_end[k]);
+    }
     for (k = 0; k < f->plant; ++k) {
       sum += f->transition[(i * f->plant) + k] * plant[k];
     }
@@ -127,35 +150,36 @@ static inline double filter_difference(double least, double variance) {
   return (variance > (least * least)) ? sqrt(variance) : least;
 }
 
-/* How far the damper's motion and state are uncertain: displacement, velocity, then its numbers. */
-static inline void filter_reach(const PlantFilter* f, const double* c, double* reach) {
-  const int half = f->plant / 2, all = filter_all(f), own = filter_own(f);
+/* How far a damper's motion and state are uncertain: displacement, velocity, then its numbers. */
+static inline void filter_reach(const PlantFilter* f, int d, const double* c, double* reach) {
+  const int half = f->plant / 2, all = filter_all(f), own = filter_own(f, d);
+  const double* along = &f->deflection[d * half];
   double way = 0, speed = 0;
   int i, k;
   for (i = 0; i < half; ++i) {
     for (k = 0; k < half; ++k) {
-      const double both = f->deflection[i] * f->deflection[k];
+      const double both = along[i] * along[k];
       way += both * c[(i * all) + k];
       speed += both * c[((half + i) * all) + half + k];
     }
   }
   reach[0] = filter_difference(f->way, way);
   reach[1] = filter_difference(f->speed, speed);
-  for (k = 0; k < f->damper; ++k) {
+  for (k = 0; k < f->damper[d]; ++k) {
     reach[2 + k] = filter_difference(f->difference[own + k], c[((own + k) * all) + own + k]);
   }
 }
 
-/* What the model's force depends on: displacement, velocity, then each number of its state; by
+/* What a model's force depends on: displacement, velocity, then each number of its state; by
  * differences to both sides. */
-static inline void filter_by_force(const PlantFilter* f, const DamperInput* at, const double* z,
-                                   const double* reach, double* by) {
-  double beside_z[FILTER_MOST];
+static inline void filter_by_force(const PlantFilter* f, int d, const DamperInput* at,
+                                   const double* z, const double* reach, double* by) {
+  double beside_z[FILTER_MOST_DAMPER];
   int k, side;
-  for (k = 0; k < f->damper; ++k) {
+  for (k = 0; k < f->damper[d]; ++k) {
     beside_z[k] = z[k];
   }
-  for (k = 0; k < (2 + f->damper); ++k) {
+  for (k = 0; k < (2 + f->damper[d]); ++k) {
     double force[2];
     for (side = 0; side < 2; ++side) {
       const double by_much = (side == 0) ? reach[k] : -reach[k];
@@ -167,7 +191,7 @@ static inline void filter_by_force(const PlantFilter* f, const DamperInput* at, 
       } else {
         beside_z[k - 2] = z[k - 2] + by_much;
       }
-      force[side] = filter_force(f, &beside, beside_z);
+      force[side] = filter_force(f, d, &beside, beside_z);
     }
     if (k > 1) {
       beside_z[k - 2] = z[k - 2];
@@ -178,20 +202,20 @@ static inline void filter_by_force(const PlantFilter* f, const DamperInput* at, 
 
 /* The same of the state after a step: it depends on displacement and velocity at the start, then
  * at the end, then on each of its numbers; a row of these per number. */
-static inline void filter_by_state(const PlantFilter* f, const DamperInput* first,
+static inline void filter_by_state(const PlantFilter* f, int d, const DamperInput* first,
                                    const DamperInput* last, const double* z, const double* reach,
                                    double* by) {
-  const int width = 4 + f->damper;
+  const int size = f->damper[d], width = 4 + size;
   int i, k, side;
 
   /* One after the other a little more and a little less. */
-  for (k = 0; (k < width) && (f->damper > 0); ++k) {
+  for (k = 0; (k < width) && (size > 0); ++k) {
     const double by_much = (k < 4) ? reach[k % 2] : reach[k - 2];
     double after[2 * FILTER_MOST_DAMPER];
     for (side = 0; side < 2; ++side) {
       const double sign = (side == 0) ? 1 : -1;
       DamperInput from = *first, to = *last;
-      for (i = 0; i < f->damper; ++i) {
+      for (i = 0; i < size; ++i) {
         after[(side * FILTER_MOST_DAMPER) + i] = z[i];
       }
       if (k == 0) {
@@ -205,46 +229,93 @@ static inline void filter_by_state(const PlantFilter* f, const DamperInput* firs
       } else {
         after[(side * FILTER_MOST_DAMPER) + k - 4] += sign * by_much;
       }
-      filter_advance(f, &from, &to, f->step, &after[side * FILTER_MOST_DAMPER]);
+      filter_advance(f, d, &from, &to, f->step, &after[side * FILTER_MOST_DAMPER]);
     }
-    for (i = 0; i < f->damper; ++i) {
+    for (i = 0; i < size; ++i) {
       by[(i * width) + k] = (after[i] - after[FILTER_MOST_DAMPER + i]) / (2 * by_much);
     }
   }
 }
 
-/* The dependence of a step on one number before it, a column of the transition, through the same
- * step with what the damper depends on. */
-static inline void filter_move_column(const PlantFilter* f, const double* by_first,
-                                      const double* by_last, const double* by_state, double* column,
-                                      int size) {
-  double end[FILTER_MOST], z[FILTER_MOST];
-  const int half = f->plant / 2, error = filter_error(f), own = filter_own(f);
-  const int acting = f->inputs + f->roads + 1, width = 4 + f->damper;
-  double start = 0, after = 0, errors = 0, kept = 0, motion[4] = {0, 0, 0, 0};
-  int i, k, pass;
+/* A small change of a damper: of its motion at both ends of a step, of its force there, of the
+ * errors that are left at the end, and of its state there. */
+typedef struct FilterChange {
+  double motion[4], start, after, kept;
+  double z[FILTER_MOST_DAMPER];
+} FilterChange;
 
-  /* The damper's motion and the force at the start. */
+/* The change of a damper at the start of a step, by a column of the transition. */
+static inline void filter_begin_column(const PlantFilter* f, int d, const FilterDamper* over,
+                                       const double* column, int size, FilterChange* change) {
+  const int half = f->plant / 2, error = filter_error(f, d), own = filter_own(f, d);
+  double errors = 0;
+  int k;
+  change->motion[0] = 0;
+  change->motion[1] = 0;
+  change->kept = 0;
   for (k = 0; k < half; ++k) {
-    motion[0] += f->deflection[k] * column[k * size];
-    motion[1] += f->deflection[k] * column[(half + k) * size];
+    change->motion[0] += f->deflection[(d * half) + k] * column[k * size];
+    change->motion[1] += f->deflection[(d * half) + k] * column[(half + k) * size];
   }
   for (k = 0; k < f->errors; ++k) {
     errors += column[(error + k) * size];
-    kept += f->force_keep[k] * column[(error + k) * size];
+    change->kept += f->force_keep[k] * column[(error + k) * size];
   }
-  start = (by_first[0] * motion[0]) + (by_first[1] * motion[1]) + errors;
-  for (k = 0; k < f->damper; ++k) {
-    start += by_first[2 + k] * column[(own + k) * size];
+  change->start =
+      (over->by_first[0] * change->motion[0]) + (over->by_first[1] * change->motion[1]) + errors;
+  for (k = 0; k < f->damper[d]; ++k) {
+    change->start += over->by_first[2 + k] * column[(own + k) * size];
+  }
+}
+
+/* The same at the end, where the plant changes by `end`. */
+static inline void filter_end_column(const PlantFilter* f, int d, const FilterDamper* over,
+                                     const double* end, const double* column, int size,
+                                     FilterChange* change) {
+  const int half = f->plant / 2, own = filter_own(f, d), width = 4 + f->damper[d];
+  int i, k;
+  change->motion[2] = 0;
+  change->motion[3] = 0;
+  for (k = 0; k < half; ++k) {
+    change->motion[2] += f->deflection[(d * half) + k] * end[k];
+    change->motion[3] += f->deflection[(d * half) + k] * end[half + k];
+  }
+  change->after = (over->by_last[0] * change->motion[2]) + (over->by_last[1] * change->motion[3]) +
+                  change->kept;
+  for (i = 0; i < f->damper[d]; ++i) {
+    change->z[i] = 0;
+    for (k = 0; k < 4; ++k) {
+      change->z[i] += over->by_state[(i * width) + k] * change->motion[k];
+    }
+    for (k = 0; k < f->damper[d]; ++k) {
+      change->z[i] += over->by_state[(i * width) + 4 + k] * column[(own + k) * size];
+    }
+    change->after += over->by_last[2 + i] * change->z[i];
+  }
+}
+
+/* The dependence of a step on one number before it, a column of the transition, through the same
+ * step with what the dampers depend on. */
+static inline void filter_move_column(const PlantFilter* f, const FilterDamper* over,
+                                      double* column, int size) {
+  FilterChange change[FILTER_MOST_DAMPERS];
+  double end[FILTER_MOST];
+  const int first = f->inputs + f->roads, acting = first + f->dampers;
+  int d, i, k, pass;
+  for (d = 0; d < f->dampers; ++d) {
+    filter_begin_column(f, d, &over[d], column, size, &change[d]);
+    change[d].after = change[d].start;
   }
 
-  /* The plant at the end, by the force at the start; that at the end; and once more by it. */
-  after = start;
+  /* The plant at the end, by the forces at the start; those at the end; and once more by them. */
   for (pass = 0; pass < 2; ++pass) {
     for (i = 0; i < f->plant; ++i) {
       const double* by_start = &f->by_start[i * acting];
       const double* by_end = &f->by_end[i * acting];
-      double sum = (by_start[acting - 1] * start) + (by_end[acting - 1] * after);
+      double sum = (by_start[first] * change[0].start) + (by_end[first] * change[0].after);
+      for (d = 1; d < f->dampers; ++d) {
+        sum += (by_start[first + d] * change[d].start) + (by_end[first + d] * change[d].after);
+      }
       for (k = 0; k < f->plant; ++k) {
         sum += f->transition[(i * f->plant) + k] * column[k * size];
       }
@@ -253,22 +324,8 @@ static inline void filter_move_column(const PlantFilter* f, const double* by_fir
       }
       end[i] = sum;
     }
-    motion[2] = 0;
-    motion[3] = 0;
-    for (k = 0; k < half; ++k) {
-      motion[2] += f->deflection[k] * end[k];
-      motion[3] += f->deflection[k] * end[half + k];
-    }
-    after = (by_last[0] * motion[2]) + (by_last[1] * motion[3]) + kept;
-    for (i = 0; i < f->damper; ++i) {
-      z[i] = 0;
-      for (k = 0; k < 4; ++k) {
-        z[i] += by_state[(i * width) + k] * motion[k];
-      }
-      for (k = 0; k < f->damper; ++k) {
-        z[i] += by_state[(i * width) + 4 + k] * column[(own + k) * size];
-      }
-      after += by_last[2 + i] * z[i];
+    for (d = 0; d < f->dampers; ++d) {
+      filter_end_column(f, d, &over[d], end, column, size, &change[d]);
     }
   }
 
@@ -279,30 +336,47 @@ static inline void filter_move_column(const PlantFilter* f, const double* by_fir
   for (k = 0; k < f->roads; ++k) {
     column[(f->plant + k) * size] *= f->road_keep;
   }
-  for (k = 0; k < f->errors; ++k) {
-    column[(error + k) * size] *= f->force_keep[k];
-  }
-  for (k = 0; k < f->damper; ++k) {
-    column[(own + k) * size] = z[k];
+  for (d = 0; d < f->dampers; ++d) {
+    for (k = 0; k < f->errors; ++k) {
+      column[(filter_error(f, d) + k) * size] *= f->force_keep[k];
+    }
+    for (k = 0; k < f->damper[d]; ++k) {
+      column[(filter_own(f, d) + k) * size] = change[d].z[k];
+    }
   }
 }
 
+/* A step of damper d from its motion `over->first` along a way to where the plant arrives under the
+ * forces at the start: its force there with its errors, and what depends on what. */
+static inline double filter_look(const PlantFilter* f, int d, const double* c, const double* s,
+                                 FilterDamper* over) {
+  double reach[FILTER_MOST_DAMPER + 2], z[FILTER_MOST_DAMPER];
+  const double* own = &s[filter_own(f, d)];
+  int k;
+  for (k = 0; k < FILTER_MOST_DAMPER; ++k) {
+    z[k] = (k < f->damper[d]) ? own[k] : 0;
+  }
+  filter_reach(f, d, c, reach);
+  filter_advance(f, d, &over->first, &over->last, f->step, z);
+  filter_by_force(f, d, &over->first, own, reach, over->by_first);
+  filter_by_force(f, d, &over->last, z, reach, over->by_last);
+  filter_by_state(f, d, &over->first, &over->last, own, reach, over->by_state);
+  return filter_force(f, d, &over->last, z) + filter_errors(f, d, s, 1);
+}
+
 /* Brings what moves from one sample to the next, and gives the transition: how it depends on what
- * was before. The force at the end of a step is first found from the motion that the force at its
+ * was before. The forces at the end of a step are first found from the motion that those at its
  * start would give. */
 static inline void filter_move(const PlantFilter* f, const double* before, const double* now,
-                               const double* reach, double* s, double* transition) {
+                               const double* c, double* s, double* transition) {
   double slopes[FILTER_MOST_INPUTS + 1], from[FILTER_MOST_INPUTS + 1], to[FILTER_MOST_INPUTS + 1];
-  double end[FILTER_MOST], z[FILTER_MOST_DAMPER], by_first[FILTER_MOST], by_last[FILTER_MOST];
-  double by_state[FILTER_MOST_DAMPER * (FILTER_MOST_DAMPER + 4)];
-  const int error = filter_error(f), own = filter_own(f), moving = filter_moving(f);
-  int j, k, step;
+  double end[FILTER_MOST], start[FILTER_MOST_DAMPERS], after[FILTER_MOST_DAMPERS];
+  FilterDamper over[FILTER_MOST_DAMPERS];
+  const int moving = filter_moving(f);
+  int d, j, k, step;
   filter_slopes(f, before, now, slopes);
   for (k = 0; k <= f->inputs; ++k) {
     to[k] = before[k];
-  }
-  for (k = 0; k < FILTER_MOST_DAMPER; ++k) {
-    z[k] = 0;
   }
   for (k = 0; k < moving; ++k) {
     for (j = 0; j < moving; ++j) {
@@ -310,41 +384,39 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
     }
   }
   for (step = 1; step <= f->steps; ++step) {
-    DamperInput first, last;
-    double start, after;
     for (k = 0; k <= f->inputs; ++k) {
       from[k] = to[k];
       to[k] = before[k] + (slopes[k] * f->step * step);
     }
-    filter_input(f, from, slopes, s, &first);
-    start = filter_force(f, &first, &s[own]) + filter_errors(f, s, 0);
-    filter_linear(f, from, to, &s[f->plant], start, start, s, end);
-    filter_input(f, to, slopes, end, &last);
-    for (k = 0; k < f->damper; ++k) {
-      z[k] = s[own + k];
+    for (d = 0; d < f->dampers; ++d) {
+      filter_input(f, d, from, slopes, s, &over[d].first);
+      start[d] =
+          filter_force(f, d, &over[d].first, &s[filter_own(f, d)]) + filter_errors(f, d, s, 0);
     }
-    filter_advance(f, &first, &last, f->step, z);
-    after = filter_force(f, &last, z) + filter_errors(f, s, 1);
+    filter_linear(f, from, to, &s[f->plant], start, start, s, end);
 
     /* What depends on what, before the state is overwritten. */
-    filter_by_force(f, &first, &s[own], reach, by_first);
-    filter_by_force(f, &last, z, reach, by_last);
-    filter_by_state(f, &first, &last, &s[own], reach, by_state);
+    for (d = 0; d < f->dampers; ++d) {
+      filter_input(f, d, to, slopes, end, &over[d].last);
+      after[d] = filter_look(f, d, c, s, &over[d]);
+    }
     for (j = 0; j < moving; ++j) {
-      filter_move_column(f, by_first, by_last, by_state, &transition[j], moving);
+      filter_move_column(f, over, &transition[j], moving);
     }
 
     filter_linear(f, from, to, &s[f->plant], start, after, s, end);
-    filter_input(f, to, slopes, end, &last);
-    filter_advance(f, &first, &last, f->step, &s[own]);
+    for (d = 0; d < f->dampers; ++d) {
+      filter_input(f, d, to, slopes, end, &over[d].last);
+      filter_advance(f, d, &over[d].first, &over[d].last, f->step, &s[filter_own(f, d)]);
+      for (k = 0; k < f->errors; ++k) {
+        s[filter_error(f, d) + k] *= f->force_keep[k];
+      }
+    }
     for (k = 0; k < f->plant; ++k) {
       s[k] = end[k];
     }
     for (k = 0; k < f->roads; ++k) {
       s[f->plant + k] *= f->road_keep;
-    }
-    for (k = 0; k < f->errors; ++k) {
-      s[error + k] *= f->force_keep[k];
     }
   }
 }
@@ -352,11 +424,10 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
 /* From the sample before to this one, before its sensors are looked at. */
 static inline void filter_predict(const PlantFilter* f, const double* before, const double* now,
                                   double* s, double* c, double* transition) {
-  double reach[FILTER_MOST], product[FILTER_MOST * FILTER_MOST];
+  double product[FILTER_MOST * FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
   int i, j, k;
-  filter_reach(f, c, reach);
-  filter_move(f, before, now, reach, s, transition);
+  filter_move(f, before, now, c, s, transition);
 
   /* The covariance: of what moves among itself, then with the offsets. */
   for (i = 0; i < moving; ++i) {
@@ -384,54 +455,63 @@ static inline void filter_predict(const PlantFilter* f, const double* before, co
   }
 }
 
-/* The damper's force without its errors, and what the whole force depends on, one number per moving
- * one; of each error 1. */
-static inline double filter_gradient(const PlantFilter* f, const DamperInput* at, const double* s,
-                                     const double* c, double* gradient) {
-  double reach[FILTER_MOST], by[FILTER_MOST];
-  const int half = f->plant / 2, error = filter_error(f), own = filter_own(f);
+/* The force of damper d with its errors, and what it depends on, one number per moving one. */
+static inline double filter_gradient(const PlantFilter* f, int d, const DamperInput* at,
+                                     const double* s, const double* c, double* gradient) {
+  double reach[FILTER_MOST_DAMPER + 2], by[FILTER_MOST_DAMPER + 2];
+  const int half = f->plant / 2, error = filter_error(f, d), own = filter_own(f, d);
+  const int moving = filter_moving(f);
   int k;
-  filter_reach(f, c, reach);
-  filter_by_force(f, at, &s[own], reach, by);
+  filter_reach(f, d, c, reach);
+  filter_by_force(f, d, at, &s[own], reach, by);
   for (k = 0; k < half; ++k) {
-    gradient[k] = by[0] * f->deflection[k];
-    gradient[half + k] = by[1] * f->deflection[k];
+    gradient[k] = by[0] * f->deflection[(d * half) + k];
+    gradient[half + k] = by[1] * f->deflection[(d * half) + k];
   }
-  for (k = 0; k < f->roads; ++k) {
-    gradient[f->plant + k] = 0;
+  for (k = f->plant; k < moving; ++k) {
+    gradient[k] = 0;
   }
-  for (k = error; k < own; ++k) {
-    gradient[k] = 1;
+  for (k = 0; k < f->errors; ++k) {
+    gradient[error + k] = 1;
   }
-  for (k = 0; k < f->damper; ++k) {
+  for (k = 0; k < f->damper[d]; ++k) {
     gradient[own + k] = by[2 + k];
   }
-  return filter_force(f, at, &s[own]);
+  return filter_force(f, d, at, &s[own]) + filter_errors(f, d, s, 0);
 }
 
 /* Takes the sensors in, one after the other. One that shows no number is left out. */
 static inline void filter_update(const PlantFilter* f, const double* before, const double* now,
                                  const double* measured, double* s, double* c,
                                  FilterSample* sample) {
-  double slopes[FILTER_MOST_INPUTS + 1], gradient[FILTER_MOST], change[FILTER_MOST];
-  double with[FILTER_MOST];
+  double slopes[FILTER_MOST_INPUTS + 1], gradient[FILTER_MOST_DAMPERS * FILTER_MOST];
+  double force[FILTER_MOST_DAMPERS], change[FILTER_MOST], with[FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
-  DamperInput at;
-  double force;
-  int i, k, m;
+  int d, i, k, m;
   filter_slopes(f, before, now, slopes);
-  filter_input(f, now, slopes, s, &at);
-  force = filter_gradient(f, &at, s, c, gradient) + filter_errors(f, s, 0);
+  for (d = 0; d < f->dampers; ++d) {
+    DamperInput at;
+    filter_input(f, d, now, slopes, s, &at);
+    force[d] = filter_gradient(f, d, &at, s, c, &gradient[d * FILTER_MOST]);
+  }
   for (k = 0; k < all; ++k) {
     change[k] = 0;
   }
   for (m = 0; m < f->sensors; ++m) {
+    const double* by_force = &f->sensor_force[m * f->dampers];
     double* row = &sample->rows[m * all];
-    double beyond = measured[m] - (f->sensor_force[m] * force) - s[moving + m];
+    double beyond = measured[m] - (by_force[0] * force[0]);
     double variance = f->sensor_variance[m];
     for (k = 0; k < moving; ++k) {
-      row[k] = f->sensor_force[m] * gradient[k];
+      row[k] = by_force[0] * gradient[k];
     }
+    for (d = 1; d < f->dampers; ++d) {
+      beyond -= by_force[d] * force[d];
+      for (k = 0; k < moving; ++k) {
+        row[k] += by_force[d] * gradient[(d * FILTER_MOST) + k];
+      }
+    }
+    beyond -= s[moving + m];
     for (k = 0; k < f->plant; ++k) {
       row[k] += f->sensor_plant[(m * f->plant) + k];
       beyond -= f->sensor_plant[(m * f->plant) + k] * s[k];
@@ -479,18 +559,18 @@ static inline void filter_update(const PlantFilter* f, const double* before, con
   }
 }
 
-/* The damper now, after filter_update(): its force with its errors, N; the standard deviation of
+/* Damper d now, after filter_update(): its force with its errors, N; the standard deviation of
  * that; its deflection and the rate of it. */
-static inline void filter_damper(const PlantFilter* f, const double* before, const double* now,
-                                 const double* s, const double* c, double* out) {
+static inline void filter_damper(const PlantFilter* f, int d, const double* before,
+                                 const double* now, const double* s, const double* c, double* out) {
   double slopes[FILTER_MOST_INPUTS + 1], gradient[FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
   DamperInput at;
   double variance = 0;
   int i, k;
   filter_slopes(f, before, now, slopes);
-  filter_input(f, now, slopes, s, &at);
-  out[0] = filter_gradient(f, &at, s, c, gradient) + filter_errors(f, s, 0);
+  filter_input(f, d, now, slopes, s, &at);
+  out[0] = filter_gradient(f, d, &at, s, c, gradient);
   for (i = 0; i < moving; ++i) {
     for (k = 0; k < moving; ++k) {
       variance += gradient[i] * c[(i * all) + k] * gradient[k];
