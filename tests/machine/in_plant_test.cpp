@@ -8,6 +8,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
 #include "dashpot/machine/duhem_law.h"
+#include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/simulate.h"
 #include "dashpot/suspension/ground/deterministic.h"
@@ -134,6 +135,23 @@ TEST_CASE("in plant: mass and Bouc-Wen of an oscillator from its displacement, w
   CHECK_CLOSE(report.sensors[0].offset, 3e-4, 0.05, 0);
   CHECK(report.step_error < 0.05);
   CHECK(report.knowable.confounded.empty());
+}
+
+TEST_CASE("in plant: what runs away has no residuals, however finite its numbers are") {
+  InPlantSetup setup = oscillator_setup();
+  const PlantCases cases = make_cases(setup, {short_recording()}, 1, PlantMethod::StraightForce);
+  const auto has_residuals = [&](double damping) {
+    const LawModel damper =
+        LawModel::constant(find_law("bingham"), std::vector{damping, 3.0, 0.0, 0.01});
+    const PlantResiduals residuals(setup, cases, damper, {2}, {});
+    const LeastSquaresProblem problem = residuals.problem();
+    std::vector<double> r(problem.residuals);
+    const bool has = problem.residual(residuals.start({2}), r);
+    CHECK(std::ranges::all_of(r, [](double value) { return std::isfinite(value); }));
+    return has;
+  };
+  CHECK(has_residuals(10));
+  CHECK_FALSE(has_residuals(-100));  // the mass goes off by e^25 each second
 }
 
 TEST_CASE("in plant: the same bits on any number of threads" * doctest::test_suite("long")) {

@@ -1,6 +1,7 @@
 #include "dashpot/machine/in_plant.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -116,13 +117,14 @@ std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
 }
 
 /// The most promising of them: all are fitted over a short time, where errors in the parameters
-/// have not yet driven the motions apart, the better half over a longer one, and so on.
+/// have not yet driven the motions apart, the better half over a longer one, and so on. Its cost is
+/// infinite where the plant diverges later.
 Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
                      const PlantStart& start, const std::optional<Candidate>& from_bench,
                      const InPlantOptions& options) {
   constexpr int kIterations = 25;
   constexpr double kTolerance = 1e-4, kFirstRadius = 10;
-  constexpr std::size_t kHorizons[] = {250, 700, 2500};
+  constexpr std::array<std::size_t, 3> kHorizons{250, 700, 2500};
   std::vector<Candidate> left = candidates(law, setup, cases, start, from_bench, options);
   double done = 0;
   for (const std::size_t horizon : kHorizons) {
@@ -143,8 +145,18 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
       if (std::isfinite(solved.cost)) one.x = solved.x;
     });
     std::ranges::stable_sort(left, {}, &Candidate::cost);
+    if (horizon == kHorizons.back()) break;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>((left.size() + 1) / 2), left.end());
   }
+
+  // The first that goes through all of the recordings.
+  for (const Candidate& one : left) {
+    const PlantResiduals residuals(setup, cases, one.unknowns, start.plant, start.scale);
+    const LeastSquaresProblem whole = residuals.problem(0, options.threads);
+    std::vector<double> r(whole.residuals);
+    if (whole.residual(one.x, r)) return one;
+  }
+  left.front().cost = INFINITY;
   return left.front();
 }
 
@@ -202,9 +214,11 @@ Candidate start_of_law(const Law& law, const InPlantSetup& setup,
     cases = make_cases(setup, recordings, stable_steps(law, setup, cases, start, options));
 
   Candidate best = best_start(law, setup, cases, start, from_bench, options);
-  if (std::isfinite(best.cost) || cases.method != PlantMethod::RungeKutta) return best;
-  cases = under_straight_force(setup, recordings, options);
-  return best_start(law, setup, cases, start, from_bench, options);
+  if (!std::isfinite(best.cost) && cases.method == PlantMethod::RungeKutta) {
+    cases = under_straight_force(setup, recordings, options);
+    best = best_start(law, setup, cases, start, from_bench, options);
+  }
+  return best;
 }
 
 /// Numbers whose profile is wanted must be among those that are fitted.
@@ -324,22 +338,11 @@ void add_road_delays(const InPlantSetup& asked, const InPlantSetup& found, InPla
   }
 }
 
-}  // namespace
-
-InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
-                                const std::vector<PlantRecording>& as_recorded,
-                                const InPlantOptions& options) {
+/// The fit of what is measured, from the best of the starts. No model where the plant diverges.
+InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
+                              const std::vector<PlantRecording>& recordings,
+                              const InPlantOptions& options) {
   const double started = cpu_seconds();
-  require_setup(setup);
-  if (looks_for_road_delay(setup)) {
-    const InPlantSetup found = with_found_road_delay(law, setup, as_recorded, options);
-    InPlantReport report = identify_in_plant(law, found, as_recorded, options);
-    add_road_delays(setup, found, report);
-    report.seconds = cpu_seconds() - started;
-    return report;
-  }
-  const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
-  if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
   InPlantReport report;
 
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit
@@ -382,7 +385,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 beside, report);
     report.iterations += solved.iterations;
   }
-  if (report.step_error > kStepShare)
+  if (is_finite() && report.step_error > kStepShare)
     report.warnings.push_back("the integrator's step changes a sensor by " +
                               format_number(100 * report.step_error, 2) +
                               " % of its error: the law is too sharp for it");
@@ -413,10 +416,16 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
     if (!beside.noise.empty())
       solved = describe_at(residuals.problem(0, options.threads), solved.x,
                            {.threads = options.threads});
-    std::vector<ParameterProfile> profiles = std::move(report.advice.profiles);
-    report.advice = advise({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
-                           find_sensor_grade(options.grade, "grade"), options);
-    report.advice.profiles = std::move(profiles);
+    if (is_finite()) {
+      std::vector<ParameterProfile> profiles = std::move(report.advice.profiles);
+      report.advice = advise({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
+                             find_sensor_grade(options.grade, "grade"), options);
+      report.advice.profiles = std::move(profiles);
+    } else {
+      report.warnings.push_back(
+          "what more sensors or recordings would add is not told: on the inputs as they were "
+          "measured the plant diverges beside what was found");
+    }
   }
 
   // The whole of each recording in free run, with the end that was held back.
@@ -427,6 +436,34 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
       report.warnings.push_back(figure.recording + ": the plant diverges on the time held back (" +
                                 figure.channel + ")");
   report.domain = domain_of(report.traces, start.scale.drive);
+  report.seconds = cpu_seconds() - started;
+  return report;
+}
+
+}  // namespace
+
+InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
+                                const std::vector<PlantRecording>& as_recorded,
+                                const InPlantOptions& options) {
+  const double started = cpu_seconds();
+  require_setup(setup);
+  if (looks_for_road_delay(setup)) {
+    const InPlantSetup found = with_found_road_delay(law, setup, as_recorded, options);
+    InPlantReport report = identify_in_plant(law, found, as_recorded, options);
+    add_road_delays(setup, found, report);
+    report.seconds = cpu_seconds() - started;
+    return report;
+  }
+  const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
+  if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
+
+  // From more places, where the plant diverges from all of the first ones.
+  constexpr int kMore = 4;
+  InPlantReport report = fit_from_starts(law, setup, recordings, options);
+  if (report.model) return report;
+  InPlantOptions wider = options;
+  wider.starts *= kMore;
+  report = fit_from_starts(law, setup, recordings, wider);
   report.seconds = cpu_seconds() - started;
   return report;
 }

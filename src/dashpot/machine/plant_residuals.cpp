@@ -41,6 +41,15 @@ struct OpensLatch {
   ~OpensLatch() { latch.count_down(); }
 };
 
+/// Whether errors, in a sensor's scale, are so far beyond what it showed that the plant diverges,
+/// although its numbers are still finite: no scale is to be taken from them.
+bool is_far(std::span<const double> errors, std::span<const double> measured, double scale) {
+  constexpr double kFar = 1e3;
+  const auto [least, greatest] = std::ranges::minmax(measured);
+  const auto [low, high] = std::ranges::minmax(errors);
+  return greatest > least && std::max(-low, high) * scale > kFar * (greatest - least);
+}
+
 }  // namespace
 
 PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
@@ -348,6 +357,7 @@ bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, 
       out[k] = (shown[s][one.first + k] - one.measured[s][one.first + k]) / scale_[s];
     const double offset = mean_of(out);
     for (double& value : out) value -= offset;
+    if (is_far(out, std::span(one.measured[s]).subspan(one.first, length), scale_[s])) return false;
   }
   if (noise_) (*noise_)[place].put_lines(beyond, length, r);
   return true;
