@@ -458,11 +458,11 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
 
   // From more places, where the plant diverges from all of the first ones.
-  constexpr int kMore = 4;
+  constexpr int kMoreStarts = 4;
   InPlantReport report = fit_from_starts(law, setup, recordings, options);
   if (report.model) return report;
   InPlantOptions wider = options;
-  wider.starts *= kMore;
+  wider.starts *= kMoreStarts;
   report = fit_from_starts(law, setup, recordings, wider);
   report.seconds = cpu_seconds() - started;
   return report;
