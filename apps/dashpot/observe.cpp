@@ -236,6 +236,8 @@ DocumentTable observed_sensors(const ObserveReport& report, double level) {
 std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantSetup& setup) {
   const Plant plant = make_plant(*setup.model, setup.known);
   std::vector<std::string> lines;
+
+  // The errors of the forces, as they are read and as the option takes them.
   std::string errors, words;
   for (const ForceError& one : report.noise.force) {
     const std::string memory = format_number(one.memory, 3);
@@ -246,6 +248,8 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
   lines.push_back((report.struts.size() > 1 ? "Errors of each damper's force: "
                                             : "Errors of the model's force: ") +
                   errors + " (--force-error " + words + ").");
+
+  // The sensors, and roads that nothing measured.
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const std::string unit = unit_of(setup.sensors[s].place, plant);
     lines.push_back(fmt::format("Noise of {}: {} {}{}.", setup.sensors[s].channel,
@@ -409,7 +413,7 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   const InPlantSetup setup = read_in_plant_setup(settings.plant);
   require_setup(setup);
   const ObservedDampers dampers =
-      load_dampers(model_files(settings.model, observer_names(setup, "").struts), setup, console);
+      load_dampers(model_files(settings.model, observer_names(setup).struts), setup, console);
   page_units(settings.units);
   std::vector<PlantRecording> recordings;
   for (const std::string& name : recording_files(settings.recordings))

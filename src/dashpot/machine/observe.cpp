@@ -219,7 +219,7 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
                                 const PlantRecording& recording, const ObservedSamples& samples,
                                 const ObservedRun& run, double width) {
   const ObserverTables& t = observer.tables();
-  const ObserverNames names = observer_names(setup, "");
+  const ObserverNames names = observer_names(setup);
   const std::size_t all = t.all(), count = samples.count, dampers = names.struts.size(),
                     coordinates = static_cast<std::size_t>(t.plant) / 2;
   ObservedRecording told{.name = recording.name, .sample_time = recording.sample_time};
@@ -272,6 +272,8 @@ void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup
     ObservedSensor figure{.channel = setup.sensors[s].channel,
                           .unit = unit_of(setup.sensors[s].place, plant),
                           .rms = rms_of(recording.channel(setup.sensors[s].channel).samples)};
+
+    // What it showed beyond what was expected, once the filter has settled.
     double square = 0, inside = 0, count = 0;
     for (std::size_t k = settled; k < run.samples.size(); ++k) {
       const double beyond = run.samples[k].innovation[s], variance = run.samples[k].variance[s];
@@ -355,7 +357,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   require_setup(setup);
   require_no_follower(setup, "the observer");
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
-  ObserveReport report{.struts = observer_names(setup, "").struts};
+  ObserveReport report{.struts = observer_names(setup).struts};
   assert(dampers.size() == report.struts.size());
   const double drive =
       setup.drive.empty() ? setup.level : recordings.front().channel(setup.drive).samples.front();

@@ -48,7 +48,8 @@ ObserverTables observer_tables(const InPlantSetup& setup,
                                const std::vector<std::shared_ptr<const DamperModel>>& dampers,
                                const ObserverNoise& noise, const ObserverScale& scale,
                                double sample_time, int steps);
-ObserverNames observer_names(const InPlantSetup& setup, const std::string& damper);
+/// damper: the name of the model, which an export tells.
+ObserverNames observer_names(const InPlantSetup& setup, const std::string& damper = "");
 
 /// The channels of the inputs that are measured, in the order of the filter.
 std::vector<std::string> measured_inputs(const InPlantSetup& setup);

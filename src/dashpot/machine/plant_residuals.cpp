@@ -44,7 +44,7 @@ struct OpensLatch {
 /// Whether errors, in a sensor's scale, are so far beyond what it showed that the plant diverges,
 /// although its numbers are still finite: no scale is to be taken from them.
 bool is_far(std::span<const double> errors, std::span<const double> measured, double scale) {
-  constexpr double kFar = 1e3;
+  constexpr double kFar = 1e3;  // of its range; wide, since a start may be far off
   const auto [least, greatest] = std::ranges::minmax(measured);
   const auto [low, high] = std::ranges::minmax(errors);
   return greatest > least && std::max(-low, high) * scale > kFar * (greatest - least);
@@ -485,6 +485,8 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
       last->x.clear();
       last->columns.assign(x.size(), {});
     }
+
+    // What is not kept is made, and kept with the rest.
     std::vector<double*> missing(columns.size(), nullptr);
     bool is_complete = !last->x.empty();
     for (std::size_t k = 0; k < columns.size(); ++k)
@@ -492,6 +494,7 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
         missing[k] = columns[k];
         is_complete = false;
       }
+
     if (is_complete)
       std::ranges::copy(last->r, r.begin());
     else if (!jacobian(x, samples, r, missing, threads))

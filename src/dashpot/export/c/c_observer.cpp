@@ -101,6 +101,8 @@ std::string filter_code(const ObserverTables& t) {
     places += std::string(", ") + name;
   }
   code += c_table("kFirstDeviation", t.first_deviation);
+
+  // The struct, in its own order.
   std::string sizes, own;
   for (const int size : {t.plant, t.inputs, t.roads, t.dampers, t.errors, t.sensors, t.steps})
     sizes += std::to_string(size) + ", ";
@@ -123,6 +125,8 @@ std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
   ObservedSample told;
   for (std::size_t k = 0; k < kObserverTestSteps; ++k) {
     const double place = static_cast<double>(k);
+
+    // Inputs, the drive behind them, and sensors: sines.
     std::vector<double> now, measured;
     for (std::size_t u = 0; u < inputs; ++u)
       now.push_back((names.input_units[u] == "m"   ? 200 * t.way
@@ -133,6 +137,8 @@ std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
     for (std::size_t s = 0; s < sensors; ++s)
       measured.push_back(kLoud * std::sqrt(t.sensor_variance[s]) *
                          std::sin((0.06 + 0.03 * static_cast<double>(s)) * place));
+
+    // The library's step, and what it tells.
     if (k == 0)
       observer.start(now, measured, {}, estimate, covariance, told);
     else

@@ -59,6 +59,8 @@ void damper_step(damper_model* model, const damper_input* input, double* outputs
   if (model->started == 0) {
     damper_reset(model, input);
   }
+
+  /* From the sample before to this one: the first one is where it begins. */
   observer_inputs(input, before, now);
   if (model->started == 1) {
     model->started = 2;
@@ -66,6 +68,8 @@ void damper_step(damper_model* model, const damper_input* input, double* outputs
     filter_predict(&kFilter, before, now, s, c, sample.transition);
   }
   filter_update(&kFilter, before, now, input->sensors, s, c, &sample);
+
+  /* What is told: each damper, then plant and roads. */
   for (k = 0; k < kFilter.dampers; ++k) {
     filter_damper(&kFilter, k, before, now, s, c, &outputs[4 * k]);
   }

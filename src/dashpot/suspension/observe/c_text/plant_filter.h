@@ -179,6 +179,8 @@ static inline void filter_by_force(const PlantFilter* f, int d, const DamperInpu
   for (k = 0; k < f->damper[d]; ++k) {
     beside_z[k] = z[k];
   }
+
+  /* One after the other a little more and a little less. */
   for (k = 0; k < (2 + f->damper[d]); ++k) {
     double force[2];
     for (side = 0; side < 2; ++side) {
@@ -274,6 +276,8 @@ static inline void filter_end_column(const PlantFilter* f, int d, const FilterDa
                                      FilterChange* change) {
   const int half = f->plant / 2, own = filter_own(f, d), width = 4 + f->damper[d];
   int i, k;
+
+  /* Its motion there, and the force by that and by the errors that are left. */
   change->motion[2] = 0;
   change->motion[3] = 0;
   for (k = 0; k < half; ++k) {
@@ -282,6 +286,8 @@ static inline void filter_end_column(const PlantFilter* f, int d, const FilterDa
   }
   change->after = (over->by_last[0] * change->motion[2]) + (over->by_last[1] * change->motion[3]) +
                   change->kept;
+
+  /* Its state, and the force by that. */
   for (i = 0; i < f->damper[d]; ++i) {
     change->z[i] = 0;
     for (k = 0; k < 4; ++k) {
