@@ -44,6 +44,13 @@ MountedDamper spencer_damper(double voltage) {
           .current = voltage};
 }
 
+/// A law with the example of its table.
+std::shared_ptr<const DamperModel> law_by_example(const char* name) {
+  std::vector<double> values;
+  for (const ParamInfo& row : find_law(name).params) values.push_back(row.value);
+  return std::make_shared<LawModel>(LawModel::constant(find_law(name), values));
+}
+
 /// A law that nothing knows to be one.
 class Unknown final : public DamperModel {
  public:
@@ -281,6 +288,40 @@ TEST_CASE("a modified Bouc-Wen damper costs no short steps, and the tolerance is
     apart = std::max(apart, std::abs(fine.record.channel("body").samples[k] -
                                      usual.record.channel("body").samples[k]));
   CHECK(apart < 1e-6 * 10 * greatest(fine, "body"));
+}
+
+TEST_CASE("a smooth ride takes four evaluations a millisecond where its tolerance allows it") {
+  const Plant plant = load_plant_set("savaresi_spelta").plant;
+  const std::vector<MountedDamper> dampers{{.model = law_by_example("tanh_guo")}};
+  const GroundPointer road = make_ground("sine,amplitude=10mm,frequency=1.5", 1);
+  const auto ride = [&](double tolerance) {
+    return simulate(
+        {plant, dampers, *road},
+        {.duration = 4, .relative_tolerance = tolerance, .absolute_tolerance = 1e-3 * tolerance});
+  };
+  const Trace exact = ride(1e-11);
+  const auto off = [&](const Trace& trace) {
+    double worst = 0;
+    for (const char* channel : {"body", "wheel", "body_velocity", "wheel_velocity"})
+      for (std::size_t k = 0; k < exact.record.time.size(); ++k)
+        worst = std::max(worst, std::abs(exact.record.channel(channel).samples[k] -
+                                         trace.record.channel(channel).samples[k]) /
+                                    greatest(exact, channel));
+    return worst;
+  };
+  const Trace loose = ride(1e-5), fine = ride(1e-9);
+  CHECK(loose.evaluations < 4.5 * 4000);
+  CHECK(off(loose) < 1e-6);
+  CHECK(fine.evaluations > 6 * 4000);
+  CHECK(off(fine) < 1e-9);
+}
+
+TEST_CASE("short steps end soon after what asked for them") {
+  const Plant plant = load_plant_set("savaresi_spelta").plant;
+  const std::vector<MountedDamper> dampers{{.model = law_by_example("elastoplastic")}};
+  const GroundPointer road = make_ground("iso8608,class=C,length=100", 1);
+  const Trace ride = simulate({plant, dampers, *road}, {.duration = 4});
+  CHECK(ride.evaluations < 15 * 4000);
 }
 
 TEST_CASE("loops of two dampers turn each at its time, and one that comes to rest costs nothing" *

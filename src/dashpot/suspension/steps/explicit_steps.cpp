@@ -3,18 +3,48 @@
 #include <cmath>
 #include <utility>
 
-#include "dashpot/suspension/steps/dormand_prince.h"
 #include "dashpot/suspension/steps/plant_equations.h"
+#include "dashpot/suspension/steps/runge_kutta.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {
 namespace {
 
-using Method = DormandPrince;
-constexpr std::size_t kStages = Method::kStages;
+/// The sum of a stage's weights, those that are not 0, times what slope_of(stage) is.
+template <class Method, std::size_t kStage, class SlopeOf>
+[[gnu::always_inline]] inline auto weighted(SlopeOf slope_of) {
+  constexpr const auto& kRow = Method::kFrom[kStage];
+  constexpr std::size_t kCount = kStage - std::count(kRow, kRow + kStage, 0.0);
+  constexpr auto kPlaces = [] {
+    std::array<std::size_t, kCount> places{};
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < kStage; ++k)
+      if (kRow[k] != 0) places[next++] = k;
+    return places;
+  }();
+  return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+    return ((kRow[kPlaces[k]] * slope_of(kPlaces[k])) + ...);
+  }(std::make_index_sequence<kCount>());
+}
 
-/// Between refresh() and the end of a stretch the first slope is that of y_: the method's last
-/// stage gives it (DormandPrince).
+/// The instants within a step at which a method's stages stand, in shares of the step, each once.
+template <class Method>
+struct Instants {
+  static constexpr std::size_t of(std::size_t stage) {
+    std::size_t instant = 0;
+    for (std::size_t s = 2; s <= stage; ++s) instant += Method::kAt[s] != Method::kAt[s - 1];
+    return instant;
+  }
+  static constexpr std::size_t kCount = of(Method::kStages - 1) + 1;
+  static_assert(kCount <= PlantEquations::kInstants);
+};
+
+/// A stretch is tried in one step of order 4 (ClassicalRungeKutta), which is two thirds of the
+/// work; where its error is too great, or a loop is followed, it goes by steps of order 5
+/// (DormandPrince).
+///
+/// Between refresh() and the end of a stretch the first slope is that of y_: the last stage of
+/// either method gives it.
 ///
 /// kSize: of y where the equations are those of a RoadCar, whose step is straight code; 0: any.
 template <std::size_t kSize>
@@ -43,25 +73,59 @@ class ExplicitSteps final : public StepMethod {
   bool advance(PlantState& state, double end) override {
     const double length = end - state.time;
     if (!(length > 0)) return true;
+    equations_.read_currents(state);
+    const bool light = turns_.empty() && go_lightly(length);
+    if (!light && !go(length)) return false;
+    equations_.write(y_.data(), k_[0].data(), end, state);
+    return true;
+  }
 
+ private:
+  using Row = std::conditional_t<(kSize > 0), std::array<double, kSize>, std::vector<double>>;
+  static Row row(std::size_t size) {
+    if constexpr (kSize > 0)
+      return {};
+    else
+      return Row(size);
+  }
+
+  /// A stretch of this length, s, in one step of order 4. False where it is not tried, or misses
+  /// its share of the tolerance: y_ is then as it was.
+  bool go_lightly(double length) {
+    if (wait_ > 0) {
+      --wait_;
+      return false;
+    }
+    attempt<ClassicalRungeKutta>(0, length);
+    const bool taken = distance(length) <= kLightShare;
+
+    // Where it fails again and again it is tried after ever more stretches.
+    waits_ = taken ? std::max(waits_ / 2, 1) : std::min(2 * waits_, kMostWaits);
+    if (taken)
+      take_step(0, length);
+    else
+      wait_ = waits_;
+    return taken;
+  }
+  /// A stretch of this length, s, in steps of order 5. False where y_ is no longer finite.
+  bool go(double length) {
     // The whole stretch is tried first; later ones start with the length that the last one
     // proposed.
     if (next_ == 0) next_ = length;
-    equations_.read_currents(state);
     Allowance least(length);
     for (double done = 0; done < length;) {
       // One step, to the end of the stretch at most, and the length that its error allows.
       const bool last = done + next_ >= length * (1 - 1e-12);
       const double h = last ? length - done : next_;
-      attempt(done, h);
+      attempt<DormandPrince>(done, h);
       const double error = distance(h);
       const bool bad = !(error <= 1), keeps = last && !bad;
       if (!keeps || !is_longer(next_, h, error)) {
-        const double wanted = h * step_factor(error, Method::kPower);
+        const double wanted = h * step_factor(error, DormandPrince::kPower);
         next_ = keeps ? std::max(next_, wanted) : wanted;
       }
       next_ = std::max(next_, least.shortest());
-      if (!turns_.empty() && !std::isnan(error)) {
+      if (!std::isnan(error)) {
         const double until = meet_turns(h, length);
         if (until < h) {
           next_ = until;
@@ -77,25 +141,18 @@ class ExplicitSteps final : public StepMethod {
         ++counts_.missed;
         least.miss();
       }
-
-      // The step is taken: its last slope is the first of the next one.
-      ++counts_.steps;
-      std::swap(y_, end_);
-      std::swap(k_.front(), k_.back());
       done = last ? length : done + h;
-      if (!turns_.empty()) take_turns(done, length, true);
+      take_step(done, length);
     }
-    equations_.write(y_.data(), k_[0].data(), end, state);
     return true;
   }
-
- private:
-  using Row = std::conditional_t<(kSize > 0), std::array<double, kSize>, std::vector<double>>;
-  static Row row(std::size_t size) {
-    if constexpr (kSize > 0)
-      return {};
-    else
-      return Row(size);
+  /// The last try is taken, to `done` s in the stretch: its last slope is the first of the next
+  /// one.
+  void take_step(double done, double stretch) {
+    ++counts_.steps;
+    std::swap(y_, end_);
+    std::swap(k_.front(), k_.back());
+    take_turns(done, stretch, true);
   }
 
   /// The first slope, at y_.
@@ -104,99 +161,102 @@ class ExplicitSteps final : public StepMethod {
     equations_.rates(done, y_.data(), k_[0].data());
     for (std::size_t l = 0; l < turns_.size(); ++l) turns_[l].at_start(equations_.loops()[l]);
   }
-  /// out = y + h (weights . slopes of the stages before).
-  template <std::size_t... kBefore>
-  void sum(Row& out, double h, const double* weights, std::index_sequence<kBefore...>) const {
-    for (std::size_t i = 0; i < size_; ++i)
-      out[i] = y_[i] + h * ((weights[kBefore] * k_[kBefore][i]) + ...);
-  }
-  /// Which of the instants ahead a stage stands at: the last two at the end of the step.
-  static constexpr std::size_t instant_of(std::size_t stage) {
-    return std::min(stage, PlantEquations::kInstants) - 1;
-  }
-  static_assert(PlantEquations::kInstants == kStages - 2 &&
-                Method::kAt[kStages - 1] == Method::kAt[kStages - 2]);
+  /// The speed along each loop at a stage that LoopPath wants to know of.
   template <std::size_t kStage>
-  void stage(double h, Row& at) {
-    sum(at, h, Method::kFrom[kStage], std::make_index_sequence<kStage>());
-    equations_.rates_at(instant_of(kStage), at.data(), k_[kStage].data());
-    if constexpr (kStage == kEarly || kStage == kLate) note_speeds(kStage);
-  }
-  /// Of each loop, at a stage that meet_turns() wants to know of.
-  void note_speeds(std::size_t stage) {
-    for (std::size_t l = 0; l < turns_.size(); ++l)
-      (stage == kEarly ? turns_[l].early : turns_[l].late) = equations_.loops()[l].along;
+  void note_speeds() {
+    if constexpr (kStage == kEarly || kStage == kLate)
+      for (std::size_t l = 0; l < turns_.size(); ++l)
+        (kStage == kEarly ? turns_[l].early : turns_[l].late) = equations_.loops()[l].along;
   }
   /// end_ and the slope there, from y_ at `done` s in the stretch.
+  template <class Method>
   void attempt(double done, double h) {
-    PlantEquations::Instants after;
-    for (std::size_t k = 0; k < after.size(); ++k) after[k] = done + Method::kAt[k + 1] * h;
+    std::array<double, Instants<Method>::kCount> after;
+    for (std::size_t s = 1; s < Method::kStages; ++s)
+      after[Instants<Method>::of(s)] = done + Method::kAt[s] * h;
     equations_.look_ahead(after);
-    counts_.evaluations += kStages - 1;
+    counts_.evaluations += Method::kStages - 1;
 
     // A RoadCar's stages are straight code.
     if constexpr (kSize > 0) {
       const RoadCar& car = *equations_.road_car();
-      turns_.empty() ? attempt_straight<false>(car, h) : attempt_straight<true>(car, h);
+      constexpr bool kMayFollow = std::is_same_v<Method, DormandPrince>;
+      if (kMayFollow && !turns_.empty())
+        attempt_straight<Method, kMayFollow>(car, h);
+      else
+        attempt_straight<Method, false>(car, h);
     } else {
-      stage<1>(h, trial_);
-      stage<2>(h, trial_);
-      stage<3>(h, trial_);
-      stage<4>(h, trial_);
-      stage<5>(h, trial_);
-      stage<6>(h, end_);
-      for (std::size_t i = 0; i < size_; ++i)
-        off_[i] = error_of([&](std::size_t s) { return k_[s][i]; });
+      attempt_any<Method>(h);
     }
   }
+  template <class Method>
+  void attempt_any(double h) {
+    // The slope of the last stage stands in the last place, whatever the method.
+    const auto slope = [&](std::size_t stage) -> Row& {
+      return stage + 1 == Method::kStages ? k_.back() : k_[stage];
+    };
+    each_stage<Method>([&]<std::size_t kStage>() {
+      Row& at = kStage + 1 == Method::kStages ? end_ : trial_;
+      for (std::size_t i = 0; i < size_; ++i)
+        at[i] =
+            y_[i] + h * weighted<Method, kStage>([&](std::size_t stage) { return k_[stage][i]; });
+      equations_.rates_at(Instants<Method>::of(kStage), at.data(), slope(kStage).data());
+      note_speeds<kStage>();
+    });
+    for (std::size_t i = 0; i < size_; ++i)
+      off_[i] = error_of<Method>([&](std::size_t stage) { return slope(stage)[i]; });
+  }
   /// The same of a RoadCar, whose slopes stay in one place from stage to stage.
-  template <bool kFollows>
+  template <class Method, bool kFollows>
   [[gnu::flatten]] void attempt_straight(const RoadCar& car, double h) {
     using State = RoadCar::State<kSize - 4>;
-    State k[kStages], y, at;
+    State k[Method::kStages], y, at;
     RoadCar::Forces forces;
     y.get(y_.data());
     k[0].get(k_[0].data());
 
     // Stage by stage: there from the slopes before, and the slope there.
-    const auto stage = [&]<std::size_t kStage, std::size_t... kBefore>(
-                           std::index_sequence<kBefore...>) __attribute__((always_inline)) {
-      constexpr const auto& kWeights = Method::kFrom[kStage];
-      at.heights = y.heights + h * ((both(kWeights[kBefore]) * k[kBefore].heights) + ...);
-      at.speeds = y.speeds + h * ((both(kWeights[kBefore]) * k[kBefore].speeds) + ...);
+    each_stage<Method>([&]<std::size_t kStage>() __attribute__((always_inline)) {
+      constexpr std::size_t kInstant = Instants<Method>::of(kStage);
+      const auto sum = [&](auto part) __attribute__((always_inline)) {
+        return part(y) + h * weighted<Method, kStage>([&](std::size_t s) { return part(k[s]); });
+      };
+      at.heights = sum([](const State& of) { return of.heights; });
+      at.speeds = sum([](const State& of) { return of.speeds; });
       for (std::size_t i = 0; i < kSize - 4; ++i)
-        at.law[i] = y.law[i] + h * ((kWeights[kBefore] * k[kBefore].law[i]) + ...);
-      forces = car.rates<kFollows>(equations_.law_parameters(instant_of(kStage)),
-                                   equations_.foot(instant_of(kStage)), at, k[kStage]);
-      if constexpr (kFollows && (kStage == kEarly || kStage == kLate)) note_speeds(kStage);
-    };
-    stage.template operator()<1>(std::index_sequence<0>());
-    stage.template operator()<2>(std::index_sequence<0, 1>());
-    stage.template operator()<3>(std::index_sequence<0, 1, 2>());
-    stage.template operator()<4>(std::index_sequence<0, 1, 2, 3>());
-    stage.template operator()<5>(std::index_sequence<0, 1, 2, 3, 4>());
-    static_assert(Method::kFrom[6][1] == 0);
-    stage.template operator()<6>(std::index_sequence<0, 2, 3, 4, 5>());
+        at.law[i] = sum([i](const State& of) { return of.law[i]; });
+      forces = car.rates<kFollows>(equations_.law_parameters(kInstant), equations_.foot(kInstant),
+                                   at, k[kStage]);
+      if constexpr (kFollows) note_speeds<kStage>();
+    });
 
     // Its end, and what the next step wants to know.
     at.put(end_.data());
-    k[kStages - 1].put(k_[kStages - 1].data());
+    k[Method::kStages - 1].put(k_.back().data());
     State off;
-    static_assert(Method::kError[1] == 0);
-    off.heights = error_of([&](std::size_t s) { return k[s].heights; });
-    off.speeds = error_of([&](std::size_t s) { return k[s].speeds; });
+    off.heights = error_of<Method>([&](std::size_t s) { return k[s].heights; });
+    off.speeds = error_of<Method>([&](std::size_t s) { return k[s].speeds; });
     for (std::size_t i = 0; i < kSize - 4; ++i)
-      off.law[i] = error_of([&](std::size_t s) { return k[s].law[i]; });
+      off.law[i] = error_of<Method>([&](std::size_t s) { return k[s].law[i]; });
     off.put(off_.data());
     equations_.put_forces(forces);
   }
-  /// The same number for body and wheel.
-  static constexpr BodyAndWheel both(double number) { return BodyAndWheel{number, number}; }
-  /// (y_5 - y_4) / h from the slopes, slope_of(stage).
-  template <class SlopeOf>
+  /// do_stage<1>(), then <2>() and so on to the last stage.
+  template <class Method, class DoStage>
+  [[gnu::always_inline]] static inline void each_stage(DoStage do_stage) {
+    [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+      (do_stage.template operator()<k + 1>(), ...);
+    }(std::make_index_sequence<Method::kStages - 1>());
+  }
+  /// The difference of a method's two solutions over h, from slope_of(stage).
+  template <class Method, class SlopeOf>
   [[gnu::always_inline]] static inline auto error_of(SlopeOf slope_of) {
-    auto sum = Method::kError[0] * slope_of(0);
-    for (std::size_t s = 2; s < kStages; ++s) sum += Method::kError[s] * slope_of(s);
+    constexpr std::size_t kFirst =
+        std::find_if(Method::kError, std::end(Method::kError), [](double e) { return e != 0; }) -
+        Method::kError;
+    auto sum = Method::kError[kFirst] * slope_of(kFirst);
+    for (std::size_t s = kFirst + 1; s < Method::kStages; ++s)
+      if (Method::kError[s] != 0) sum += Method::kError[s] * slope_of(s);
     return sum;
   }
   /// Error of the step, in tolerances; that of a loop as one of its z.
@@ -265,20 +325,28 @@ class ExplicitSteps final : public StepMethod {
       steep = loop.steep;
     }
   };
-  /// The stages that stand where LoopPath wants to know the speed.
+  /// The stages of order 5 that stand where LoopPath wants to know the speed.
   static constexpr std::size_t kEarly = 2, kLate = 3;
-  static_assert(Method::kAt[kEarly] == LoopPath<LawLoopKind>::kEarly &&
-                Method::kAt[kLate] == LoopPath<LawLoopKind>::kLate);
+  static_assert(DormandPrince::kAt[kEarly] == LoopPath<LawLoopKind>::kEarly &&
+                DormandPrince::kAt[kLate] == LoopPath<LawLoopKind>::kLate);
   /// Of a stretch: the shortest step to a turn of a loop, and the first one after it.
   static constexpr double kNearTurn = 1.0 / 65536, kAfterTurn = 0.2;
+
+  /// Of the tolerance, what a step of order 4 may take: it sees less than one of order 5 of a force
+  /// that bends within the step.
+  static constexpr double kLightShare = 0.3;
+  static constexpr int kMostWaits = 64;  ///< stretches
 
   PlantEquations equations_;
   IntegratorOptions options_;
   std::size_t size_;
-  Row y_, trial_, end_, off_;   ///< off_: (y_5 - y_4) / h of the last try
-  std::array<Row, kStages> k_;  ///< slopes, stage by stage; the first is that of y_
-  std::vector<Turn> turns_;     ///< one per loop of the equations
-  double next_ = 0;             ///< s, the length to try next
+  Row y_, trial_, end_, off_;  ///< off_: error_of() the last try
+  /// Slopes, stage by stage; the first is that of y_, the last one that at the end of the last try.
+  std::array<Row, DormandPrince::kStages> k_;
+  std::vector<Turn> turns_;  ///< one per loop of the equations
+  double next_ = 0;          ///< s, the length of order 5 to try next
+  int wait_ = 0;             ///< stretches until order 4 is tried again
+  int waits_ = 1;            ///< and how many there would be after another failure
 };
 
 }  // namespace

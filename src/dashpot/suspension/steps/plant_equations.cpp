@@ -137,15 +137,18 @@ void PlantEquations::rates_at(std::size_t instant, const double* y, double* dy) 
   forces_.with_sizes([&](auto sizes) { rates_of(sizes, after_[instant], y, dy, foot_of); });
 }
 
-void PlantEquations::look_ahead(const Instants& after) noexcept {
-  after_ = after;
-  for (std::size_t k = 0; k < kInstants; ++k) times_[k] = state_->time + after[k];
+void PlantEquations::look_ahead(std::span<const double> after) noexcept {
+  const std::size_t count = ahead_count_ = after.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    after_[k] = after[k];
+    times_[k] = state_->time + after[k];
+  }
   forces_.with_sizes([&](auto sizes) {
     for (std::size_t w = 0; w < sizes.tyres; ++w)
-      forces_.feet(w, times_, {feet_.data() + w * kInstants, kInstants});
+      forces_.feet(w, {times_.data(), count}, {feet_.data() + w * kInstants, count});
   });
   if (!is_road_car_ || steady_[0]) return;
-  for (std::size_t k = 0; k < kInstants; ++k)
+  for (std::size_t k = 0; k < count; ++k)
     road_car_.law.law->parameters_at(state_->dampers[0].current_after(after[k]), ahead_[k].data());
 }
 
@@ -175,10 +178,10 @@ void PlantEquations::write(const double* y, const double* dy, double end, PlantS
 
   // The road at the last of the instants ahead, where that is the end.
   state.time = end;
-  if (times_.back() != end) return;
+  if (ahead_count_ == 0 || times_[ahead_count_ - 1] != end) return;
   state.road_time = end;
   for (std::size_t w = 0; w < state.road.size(); ++w)
-    state.road[w] = feet_[w * kInstants + kInstants - 1];
+    state.road[w] = feet_[w * kInstants + ahead_count_ - 1];
 }
 
 }  // namespace dashpot

@@ -37,10 +37,10 @@ class PlantEquations {
   void read_currents(const PlantState& state);
   /// f at `after` seconds from there. Allocates nothing.
   void rates(double after, const double* y, double* dy) noexcept;
-  /// Instants of a step, s after there, whose road and currents are found at once.
+  /// Instants of a step, s after there, whose road and currents are found at once: at most
+  /// kInstants, in order of time.
   static constexpr std::size_t kInstants = 5;
-  using Instants = std::array<double, kInstants>;
-  void look_ahead(const Instants& after) noexcept;
+  void look_ahead(std::span<const double> after) noexcept;
   /// rates() at one of them.
   void rates_at(std::size_t instant, const double* y, double* dy) noexcept;
   /// The equations as those of a RoadCar; null where they are others.
@@ -72,10 +72,11 @@ class PlantEquations {
   std::vector<char> steady_;     ///< whether a coil's current stays as it is
   std::vector<SteadyLaw> laws_;  ///< one per damper
   std::vector<FollowedLoop> loops_;
-  std::vector<double> states_;    ///< of the dampers at the last call of rates(), loops by their z
-  Instants after_{};              ///< the instants ahead, s after the state's
-  Instants times_{};              ///< and their times, s
-  std::vector<FootMotion> feet_;  ///< there, tyre by tyre
+  std::vector<double> states_;   ///< of the dampers at the last call of rates(), loops by their z
+  std::size_t ahead_count_ = 0;  ///< of the instants ahead
+  std::array<double, kInstants> after_{};  ///< s after the state's
+  std::array<double, kInstants> times_{};  ///< and their times, s
+  std::vector<FootMotion> feet_;           ///< there, tyre by tyre
   bool is_road_car_ = false;
   RoadCar road_car_{};
   std::array<std::array<double, kMaxParams>, kInstants> ahead_{};  ///< its parameters there

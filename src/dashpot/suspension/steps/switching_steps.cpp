@@ -1,10 +1,13 @@
+#include <algorithm>
+
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
 namespace {
 
-/// Stretches go by explicit steps. Where these become many, implicit ones are tried, and whichever
-/// needed fewer evaluations goes on; the other one is tried again from time to time.
+/// Stretches go by explicit steps. Where these cost much in stretches on end, implicit ones are
+/// tried, and whichever needed fewer evaluations goes on. Explicit steps are tried again soon,
+/// since what asked for short ones may have passed, and later and later where it has not.
 class SwitchingSteps final : public StepMethod {
  public:
   SwitchingSteps(const PlantForces& forces, const IntegratorOptions& options,
@@ -23,11 +26,20 @@ class SwitchingSteps final : public StepMethod {
   }
 
   bool advance(PlantState& state, double end) override {
-    const bool tries = ++since_ >= kPatience && by_explicit_ > 2 * implicit_cost_;
-    if (tries) since_ = 0;
-    const bool implicitly = stiff_ != tries;
+    const bool tries = stiff_ ? ++stretches_ > wait_ : costs_ >= kCostly;
+    const bool implicitly = stiff_ != tries, was_stiff = stiff_;
     const bool finite = implicitly ? by_implicit(state, end) : by_explicit(state, end);
     if (implicitly || tries) stiff_ = by_implicit_ < by_explicit_;
+
+    // When the other method is tried next.
+    if (tries) {
+      wait_ = was_stiff && stiff_ ? std::min(2 * wait_, kMostWait) : 1;
+      stretches_ = 0;
+      costs_ = implicitly && !stiff_ ? -kMostWait : 0;
+    } else if (!implicitly) {
+      const double share = by_explicit_ / (2 * implicit_cost_);
+      costs_ = share > 1 ? costs_ + share : std::min(costs_, 0.0);
+    }
     add_up();
     return finite;
   }
@@ -35,7 +47,10 @@ class SwitchingSteps final : public StepMethod {
  private:
   /// Evaluations of an implicit step's stages, with the slopes by time and at its end.
   static constexpr std::size_t kStages = 8;
-  static constexpr int kPatience = 16;  ///< stretches between tries of the other method
+  /// Of stretches on end that each cost more than two implicit steps, in such costs: implicit ones
+  /// are tried.
+  static constexpr double kCostly = 4;
+  static constexpr int kMostWait = 16;  ///< stretches or costs between tries of the other method
 
   bool by_explicit(PlantState& state, double end) {
     if (!explicit_knows_) explicit_->refresh(state);
@@ -63,7 +78,9 @@ class SwitchingSteps final : public StepMethod {
   double implicit_cost_;
   double by_explicit_ = 0, by_implicit_ = 0;  ///< of the last stretch that each one took
   bool stiff_ = false, explicit_knows_ = false;
-  int since_ = kPatience;
+  double costs_ = 0;   ///< while not stiff: see kCostly
+  int stretches_ = 0;  ///< while stiff, since explicit steps were tried last
+  int wait_ = 1;       ///< and until they are tried again
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/suspension/lanes/simd/quarter_car.h"
-#include "dashpot/suspension/steps/dormand_prince.h"
+#include "dashpot/suspension/steps/runge_kutta.h"
 
 namespace dashpot {
 namespace {

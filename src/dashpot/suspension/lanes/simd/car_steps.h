@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "dashpot/suspension/lanes/simd/car.h"
-#include "dashpot/suspension/steps/dormand_prince.h"
+#include "dashpot/suspension/steps/runge_kutta.h"
 
 namespace dashpot {
 namespace {

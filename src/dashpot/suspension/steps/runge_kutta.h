@@ -42,19 +42,44 @@ struct DormandPrince {
   /// e: y_5 - y_4 over h.
   static constexpr double kError[kStages] = {
       71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
-
-  /// A method is consistent where each stage's row sums up to where it stands.
-  static constexpr bool is_consistent() {
-    double errors = 0;
-    for (std::size_t stage = 0; stage < kStages; ++stage) {
-      double off = -kAt[stage];
-      for (const double weight : kFrom[stage]) off += weight;
-      if (off > 1e-14 || off < -1e-14) return false;
-      errors += kError[stage];
-    }
-    return errors < 1e-16 && errors > -1e-16;
-  }
 };
-static_assert(DormandPrince::is_consistent(), "each row sums up to c, the error's weights to 0");
+
+/// The classical Runge-Kutta method of order 4, with the error of R. Balac and F. Mahe, Comput.
+/// Phys. Commun. 184 (2013) 1211-1219: an embedded solution of order 3 takes a tenth of the slope
+/// at the end of the step, which is the first of the next one, in place of that of the last stage.
+///
+///     c  |  a
+///     ---+-----------------------
+///     0  |
+///     1/2| 1/2
+///     1/2|  0   1/2
+///     1  |  0    0    1
+///     1  | 1/6  1/3  1/3  1/6
+///     ---+-----------------------
+///     y_4| 1/6  1/3  1/3  1/6    0
+///     y_3| 1/6  1/3  1/3 1/15 1/10
+struct ClassicalRungeKutta {
+  static constexpr std::size_t kStages = 5;
+  static constexpr double kAt[kStages] = {0, 0.5, 0.5, 1, 1};
+  static constexpr double kFrom[kStages][kStages - 1] = {
+      {}, {0.5}, {0, 0.5}, {0, 0, 1}, {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}};
+  static constexpr double kError[kStages] = {0, 0, 0, 0.1, -0.1};
+};
+
+/// A method is consistent where each stage's row sums up to where it stands, and the weights of the
+/// error to 0.
+template <class Method>
+constexpr bool is_consistent() {
+  const auto is_rounding = [](double off) { return off < 1e-14 && off > -1e-14; };
+  double errors = 0;
+  for (std::size_t stage = 0; stage < Method::kStages; ++stage) {
+    double off = -Method::kAt[stage];
+    for (const double weight : Method::kFrom[stage]) off += weight;
+    if (!is_rounding(off)) return false;
+    errors += Method::kError[stage];
+  }
+  return is_rounding(errors);
+}
+static_assert(is_consistent<DormandPrince>() && is_consistent<ClassicalRungeKutta>());
 
 }  // namespace dashpot
