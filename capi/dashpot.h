@@ -345,6 +345,15 @@ DASHPOT_API dashpot_status dashpot_observe(const dashpot_model* model, const das
                                            const dashpot_monitor* monitor,
                                            dashpot_recordings** estimates, char** report);
 
+/// A damper that works in a plant, followed from day to day: `dashpot watch`. One ride per day, in
+/// their order. Options (null: none): {"tracked": ["force"], "level": "CHANNEL", "known":
+/// ["CHANNEL"], "reference": 20, "false_alarms": 0.001, "threads": 0, "state": ...}. The report is
+/// that of the command, and "state": given to the next call, its days stand before the new ones and
+/// are not looked at again.
+DASHPOT_API dashpot_status dashpot_watch(const dashpot_model* model, const dashpot_rides* rides,
+                                         const char* plant, const char* options,
+                                         const dashpot_monitor* monitor, char** report);
+
 #ifdef __cplusplus
 }
 #endif

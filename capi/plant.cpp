@@ -1,9 +1,13 @@
 #include "dashpot/base/date.h"
 #include "dashpot/base/escape.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/machine/watched.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
 #include "handles.h"
@@ -25,12 +29,16 @@ InPlantSetup setup_of(const char* plant) {
   return is_text ? parse_in_plant_setup(text, "plant") : read_in_plant_setup(text);
 }
 
-std::vector<PlantRecording> recordings_of(const dashpot_rides* rides, const InPlantSetup& setup) {
+/// `more`: channels beside those of the plant.
+std::vector<PlantRecording> recordings_of(const dashpot_rides* rides, const InPlantSetup& setup,
+                                          const std::vector<std::string>& more = {}) {
   require(rides, "rides");
   if (rides->tables.empty()) throw Error("rides", "there are none", "add one at least");
+  std::vector<std::string> channels = setup.channels();
+  channels.insert(channels.end(), more.begin(), more.end());
   std::vector<PlantRecording> recordings;
   for (const RawTable& table : rides->tables)
-    recordings.push_back(plant_recording(table, setup.channels()));
+    recordings.push_back(plant_recording(table, channels));
   return recordings;
 }
 
@@ -93,6 +101,78 @@ void observe_rides(const dashpot_model& model, const dashpot_rides* rides, const
     made->dataset.records.push_back(estimates_of(one));
   if (report) *report = copy_text(format_json(presentable(to_json(observed, setup))));
   *estimates = made.release();
+}
+
+/// What the days of a state depend on, by name.
+Value basis_of(const dashpot_model& model, const InPlantSetup& setup, const WatchOptions& options) {
+  return Value::object({{"model", sha256(format_model(model.file))},
+                        {"plant", sha256(format_json(to_json(setup), false))},
+                        {"tracked", join(options.wears, ",")},
+                        {"level", options.level},
+                        {"known", join(options.known, ",")}});
+}
+
+/// Days that were looked at before, and the plant as they found it.
+struct WatchHistory {
+  std::optional<Value> found;
+  std::vector<WatchedDay> days;
+};
+WatchHistory history_of(const std::optional<Value>& state, const Value& basis) {
+  WatchHistory history;
+  if (!state) return history;
+  ObjectReader reader(*state, "options, state");
+  const Value& stated = reader.required("basis");
+  for (const auto& [name, now] : basis.members()) {
+    const Value* then = stated.find(name);
+    if (!then || then->as_string() != now.as_string())
+      throw Error("options, state", "is of another " + name, "begin with a new one: without it");
+  }
+  history.found = reader.required("found");
+  for (const Value& day : reader.required("days").items())
+    history.days.push_back(watched_day_from_json(day));
+  reader.finish();
+  return history;
+}
+
+/// The charts of all days as JSON, and the state that the next days go on from.
+std::string watch_rides(const dashpot_model& model, const dashpot_rides* rides, const char* plant,
+                        WatchWords words, const dashpot_monitor* monitor) {
+  const InPlantSetup setup = setup_of(plant);
+  WatchOptions& options = words.options;
+  require_plant_drive(setup, model.file, model.name);
+  const Value basis = basis_of(model, setup, options);
+  WatchHistory history = history_of(words.state, basis);
+  std::vector<PlantRecording> recordings = recordings_of(rides, setup, options.known);
+  const std::shared_ptr<const DamperModel> damper = model.damper->with_offset(0);
+
+  // The plant as the state has it, or as the first days show it; then each new day.
+  WatchedPlant watched;
+  std::vector<WatchedDay> days(recordings.size());
+  run_watched(monitor, [&](const Monitor& watching) {
+    options.monitor = watching;
+    if (history.found) {
+      watched = watched_again(damper, model.file.domain, setup, *history.found, options);
+    } else {
+      require_watchable(setup, options);
+      const std::size_t first = std::min(kPreparationDays, recordings.size());
+      watched = watched_plant(damper, model.file.domain, setup,
+                              {recordings.begin(), recordings.begin() + first}, options);
+    }
+    parallel_for(days.size(), options.threads, [&](std::size_t d) {
+      watching.check();
+      days[d] = watch_day(watched, recordings[d], options);
+    });
+  });
+  std::ranges::move(days, std::back_inserter(history.days));
+
+  // What they say.
+  const std::vector<WatchedQuantity> quantities = watch_charts(watched, history.days, options);
+  Value told = to_json(Watched{watched, history.days, quantities, options}), kept = Value::array();
+  for (const WatchedDay& day : history.days) kept.push_back(to_json(day));
+  told.add(
+      "state",
+      Value::object({{"basis", basis}, {"found", found_of(watched)}, {"days", std::move(kept)}}));
+  return format_json(presentable(told));
 }
 
 }  // namespace
@@ -161,5 +241,16 @@ dashpot_status dashpot_observe(const dashpot_model* model, const dashpot_rides* 
     *estimates = nullptr;
     require(model, "model");
     observe_rides(*model, rides, plant, read_observe_options(options), monitor, estimates, report);
+  });
+}
+
+dashpot_status dashpot_watch(const dashpot_model* model, const dashpot_rides* rides,
+                             const char* plant, const char* options, const dashpot_monitor* monitor,
+                             char** report) {
+  return guarded([&] {
+    require(report, "report");
+    *report = nullptr;
+    require(model, "model");
+    *report = copy_text(watch_rides(*model, rides, plant, read_watch_options(options), monitor));
   });
 }

@@ -238,6 +238,36 @@ ObserveOptions read_observe_options(const char* text) {
   return options;
 }
 
+WatchWords read_watch_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  WatchWords words;
+  WatchOptions& options = words.options;
+  const auto read_names = [&](const char* key, std::vector<std::string>& names) {
+    const Value* given = reader.optional(key);
+    if (!given) return;
+    names.clear();
+    for (const Value& name : given->items()) names.push_back(name.as_string());
+  };
+  read_names("tracked", options.wears);
+  read_names("known", options.known);
+  options.level = reader.string("level", "");
+  options.threads = whole_int(reader, "threads", options.threads);
+  options.chart.reference = static_cast<std::size_t>(
+      whole(reader, "reference", static_cast<double>(options.chart.reference)));
+  const double false_alarms = reader.number("false_alarms", 1 / options.chart.days);
+  if (const Value* state = reader.optional("state")) words.state = *state;
+  reader.finish();
+
+  // What the charts cannot do.
+  if (options.wears.empty()) throw Error("options, tracked", "names nothing", "[\"force\"]");
+  for (const std::string& name : options.wears) find_wear(name, "options, tracked");
+  if (!(false_alarms > 0 && false_alarms < 0.1))
+    throw Error("options, false_alarms", "must lie between 0 and 0.1", "0.001 is one in 1000 days");
+  options.chart.days = 1 / false_alarms;
+  return words;
+}
+
 std::vector<std::pair<std::string, double>> read_conditions(const char* text) {
   std::vector<std::pair<std::string, double>> conditions;
   if (!text) return conditions;

@@ -5,6 +5,7 @@
 #include "dashpot/export.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/machine/observe.h"
+#include "dashpot/machine/watch.h"
 #include "dashpot/vehicle.h"
 
 namespace dashpot::capi {
@@ -60,6 +61,13 @@ struct InPlantWords {
 };
 InPlantWords read_in_plant_options(const char* text);
 ObserveOptions read_observe_options(const char* text);
+
+/// The options of dashpot_watch.
+struct WatchWords {
+  WatchOptions options;
+  std::optional<Value> state;  ///< of an earlier report
+};
+WatchWords read_watch_options(const char* text);
 
 /// {"gap": 0.001}
 std::vector<std::pair<std::string, double>> read_conditions(const char* text);

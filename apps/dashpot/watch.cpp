@@ -46,7 +46,6 @@ constexpr std::string_view kWatchExample =
     "  --state car.watch --false-alarms 0.002";
 
 constexpr StoreFormat kWatchFormat{"watch", 1, "name another --state, or remove this one"};
-constexpr std::size_t kPrepared = 3;  // reference days that uncertainties are found on
 
 /// A recording that is to be looked at.
 struct NewDay {
@@ -148,7 +147,7 @@ WatchedPlant prepared(const ModelFile& file, std::shared_ptr<const DamperModel> 
   require_watchable(setup, options);
   if (todo.empty()) throw UsageError("RECORDING", "is missing", "the recordings of the first days");
   std::vector<PlantRecording> first;
-  for (std::size_t d = 0; d < std::min(kPrepared, todo.size()); ++d)
+  for (std::size_t d = 0; d < std::min(kPreparationDays, todo.size()); ++d)
     first.push_back(read_day(todo[d], setup, options));
   WatchedPlant watched = watched_plant(std::move(damper), file.domain, setup, first, options);
   state.keep_found(watched);

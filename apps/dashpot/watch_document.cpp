@@ -22,23 +22,10 @@ std::string amount_text(const WatchedQuantity& q, double value, int digits = 3) 
 }
 std::string amount_unit(const WatchedQuantity& q) { return is_share(q) ? "%" : unit_name(q.unit); }
 
-bool is_judged(const Watched& watched, std::size_t day) {
-  return watched.quantities.front().chart.points[day].is_judged;
-}
-
 /// Days that the charts take.
 std::size_t days_that_count(const Watched& watched) {
   return static_cast<std::size_t>(std::ranges::count_if(
       watched.days, [](const WatchedDay& day) { return day.estimate.converged; }));
-}
-
-std::string remark_of(const Watched& watched, std::size_t day) {
-  std::vector<std::string> remarks;
-  for (const WatchedQuantity& q : watched.quantities)
-    if (q.chart.alarm == day) remarks.push_back("ALARM: " + q.name);
-  if (!watched.days[day].estimate.converged) remarks.emplace_back("does not count: not converged");
-  if (remarks.empty() && !is_judged(watched, day)) remarks.emplace_back("reference");
-  return join(remarks, ", ");
 }
 
 /// On a terminal: the last days, and those with an alarm.
@@ -74,10 +61,10 @@ std::vector<std::string> day_row(const Watched& watched, std::size_t d) {
   for (const WatchedQuantity& q : watched.quantities) {
     row.push_back(amount_text(q, day.wear[q.place]));
     row.push_back(amount_text(q, kNormal95 * day.wear_deviation[q.place], 2));
-    row.push_back(!is_judged(watched, d) ? "" : format_number(q.chart.points[d].sum, 3));
+    row.push_back(!watched.is_judged(d) ? "" : format_number(q.chart.points[d].sum, 3));
   }
   for (const double value : day.plant) row.push_back(format_number(value, 4));
-  row.push_back(remark_of(watched, d));
+  row.push_back(watched.remark(d));
   return row;
 }
 
@@ -200,53 +187,13 @@ DocumentFigure chart_figure(const Watched& watched) {
   return figure;
 }
 
-Value day_json(const Watched& watched, std::size_t d) {
-  const WatchedDay& day = watched.days[d];
-  Value amounts = Value::object(), plant = Value::object(), known = Value::object();
-  for (const WatchedQuantity& q : watched.quantities) {
-    const ChartPoint& point = q.chart.points[d];
-    amounts.add(q.name, Value::object({{"value", day.estimate.wear[q.place]},
-                                       {"deviation", day.estimate.wear_deviation[q.place]},
-                                       {"expected", point.expected},
-                                       {"scatter", point.scatter},
-                                       {"score", point.score},
-                                       {"sum", point.sum}}));
-  }
-  for (std::size_t k = 0; k < day.estimate.plant.size(); ++k)
-    plant.add(watched.plant.setup.unknown[k].name, day.estimate.plant[k]);
-  for (std::size_t k = 0; k < day.known.size(); ++k)
-    known.add(watched.options.known[k], day.known[k]);
-  return Value::object({{"name", day.estimate.name},
-                        {"amounts", std::move(amounts)},
-                        {"plant", std::move(plant)},
-                        {"excitation", day.estimate.excitation},
-                        {"known", std::move(known)},
-                        {"converged", day.estimate.converged},
-                        {"remark", remark_of(watched, d)}});
-}
-
-Value watch_json(const Watched& watched) {
-  Value charts = Value::array(), days = Value::array();
-  for (const WatchedQuantity& q : watched.quantities) {
-    Value chart =
-        Value::object({{"quantity", q.name}, {"unit", q.unit}, {"threshold", q.chart.threshold}});
-    if (q.chart.alarm) {
-      chart.add("alarm", watched.days[*q.chart.alarm].estimate.name);
-      chart.add("since", watched.days[q.chart.since].estimate.name);
-      chart.add("fall", q.chart.fall);
-      chart.add("fall_deviation", q.chart.fall_deviation);
-    }
-    charts.push_back(std::move(chart));
-  }
-  for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
-  return Value::object({{"plant", watched.plant.setup.model->name},
-                        {"damper", watched.plant.damper->name()},
-                        {"alarm", watched.first_alarm() != nullptr},
-                        {"days_between_false_alarms", watched.options.chart.days},
-                        {"reference_days", watched.options.chart.reference},
-                        {"found", found_of(watched.plant)},
-                        {"charts", std::move(charts)},
-                        {"days", std::move(days)}});
+/// "the damper's whole force has fallen by 12 +- 3 % since ..."
+std::string alarm_text(const Watched& watched, const WatchedQuantity& q) {
+  return fmt::format("{} has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
+                     q.meaning, amount_text(q, q.chart.fall),
+                     amount_text(q, kNormal95 * q.chart.fall_deviation, 2), amount_unit(q),
+                     watched.days[q.chart.since].estimate.name,
+                     watched.days[*q.chart.alarm].estimate.name);
 }
 
 std::string verdict_of(const Watched& watched) {
@@ -254,7 +201,7 @@ std::string verdict_of(const Watched& watched) {
   const std::size_t count = days_that_count(watched), reference = watched.options.chart.reference;
   std::string verdict;
   if (alarm)
-    verdict = "ALARM: " + watched.alarm_text(*alarm) + '.';
+    verdict = "ALARM: " + alarm_text(watched, *alarm) + '.';
   else if (count <= reference)
     verdict =
         fmt::format("{} of {} reference days are there: nothing is judged yet.", count, reference);
@@ -287,20 +234,6 @@ std::string csv_titles(const Watched& watched) {
 
 }  // namespace
 
-const WatchedQuantity* Watched::first_alarm() const {
-  const WatchedQuantity* first = nullptr;
-  for (const WatchedQuantity& q : quantities)
-    if (q.chart.alarm && (!first || *q.chart.alarm < *first->chart.alarm)) first = &q;
-  return first;
-}
-
-std::string Watched::alarm_text(const WatchedQuantity& q) const {
-  return fmt::format("{} has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
-                     q.meaning, amount_text(q, q.chart.fall),
-                     amount_text(q, kNormal95 * q.chart.fall_deviation, 2), amount_unit(q),
-                     days[q.chart.since].estimate.name, days[*q.chart.alarm].estimate.name);
-}
-
 Document watch_document(const Watched& watched) {
   Document document{.title = "A damper watched from day to day",
                     .subtitle = std::string(watched.plant.setup.model->title),
@@ -313,13 +246,13 @@ Document watch_document(const Watched& watched) {
   DocumentSection charts{.name = "charts", .title = "Charts", .paragraphs = {}};
   for (const WatchedQuantity& q : watched.quantities)
     if (q.chart.alarm && &q != watched.first_alarm())
-      charts.remarks.push_back("Also: " + watched.alarm_text(q) + ".");
+      charts.remarks.push_back("Also: " + alarm_text(watched, q) + ".");
   charts.tables = {chart_table(watched)};
   charts.figures = {chart_figure(watched)};
   DocumentSection days{.name = "days", .title = "Days", .paragraphs = {}};
   days.tables = {day_table(watched)};
   document.sections = {std::move(charts), std::move(days)};
-  document.data = watch_json(watched);
+  document.data = to_json(watched);
   return document;
 }
 
@@ -337,7 +270,7 @@ std::string watch_csv(const Watched& watched) {
     }
     for (const double value : day.estimate.plant) add(value);
     for (const double value : day.known) add(value);
-    text += ',' + csv_field(remark_of(watched, d)) + '\n';
+    text += ',' + csv_field(watched.remark(d)) + '\n';
   }
   return text;
 }

@@ -5,7 +5,9 @@
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/observe.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/machine/worn_damper.h"
 #include "dashpot/value.h"
 #include "handles.h"
 
@@ -122,6 +124,62 @@ TEST_CASE("dampers inside a plant: the force of each is observed by its strut's 
     }
     CHECK(error < 0.01 * size);
   }
+}
+
+TEST_CASE("a damper inside a plant, watched: a state stands for the days before" *
+          doctest::test_suite("long")) {
+  const char* const plant =
+      "plant: oscillator\n"
+      "parameters: {mass: 100 kg, damping: 0, stiffness: 40 kN/m}\n"
+      "inputs: [{channel: push, kind: force, at: mass}]\n"
+      "sensors:\n"
+      "  - {channel: x, quantity: displacement, at: mass, noise: 0.1 mm}\n"
+      "  - {channel: a, quantity: acceleration, at: mass, noise: 0.05}\n"
+      "current: 0 A\n";
+  const auto truth = std::make_shared<dashpot::LawModel>(dashpot::load_parameters("kwok2006"));
+  const auto record = [&](dashpot_rides* rides, std::uint64_t seed, double wear) {
+    const dashpot::WornDamper damper(dashpot::mounted(truth, 0),
+                                     {{&dashpot::find_wear("force", "test"), wear}});
+    const auto ride = dashpot::virtual_campaign(
+        dashpot::parse_in_plant_setup(plant, "plant"), damper,
+        {.duration = 4, .sample_rate = 200, .levels = {0}, .push = 800, .seed = seed});
+    REQUIRE(add(rides, ride.front().recorded) == DASHPOT_OK);
+  };
+  const Model model = published("kwok2006");
+  const auto watch = [&](dashpot_rides* rides, const std::string& more) {
+    Text report;
+    const std::string options = R"({"reference": 6, "false_alarms": 0.01)" + more + "}";
+    REQUIRE(dashpot_watch(model, rides, plant, options.c_str(), nullptr, &report) == DASHPOT_OK);
+    return dashpot::parse_json(report.handle, "report");
+  };
+
+  // Healthy days teach; days without a third of the force raise the alarm.
+  Rides healthy, weak;
+  REQUIRE(dashpot_rides_new(&healthy) == DASHPOT_OK);
+  REQUIRE(dashpot_rides_new(&weak) == DASHPOT_OK);
+  for (std::uint64_t day = 1; day <= 7; ++day) record(healthy, day, 0);
+  for (std::uint64_t day = 20; day <= 21; ++day) record(weak, day, -0.3);
+  const dashpot::Value taught = watch(healthy, "");
+  CHECK(!taught.find("alarm")->as_bool());
+  const std::string state = ", \"state\": " + dashpot::format_json(*taught.find("state"));
+  const dashpot::Value faded = watch(weak, state);
+  CHECK(faded.find("days")->items().size() == 9);
+  CHECK(faded.find("alarm")->as_bool());
+  CHECK(std::abs(faded.find("charts")->items()[0].find("fall")->as_number() - 0.3) < 0.06);
+
+  // What cannot be.
+  char* report = nullptr;
+  const auto refusal = [&](const std::string& options) {
+    const dashpot_status status =
+        dashpot_watch(model, weak, plant, options.c_str(), nullptr, &report);
+    CHECK(report == nullptr);
+    return message_of(DASHPOT_BAD_INPUT, status);
+  };
+  CHECK(contains(refusal(R"({"tracked": ["viscous"])" + state + "}"), "is of another tracked"));
+  CHECK(contains(refusal(R"({"tracked": ["farce"]})"), "farce"));
+  CHECK(contains(refusal(R"({"known": ["temperature"]})"), "has no column 'temperature'"));
+  CHECK(contains(refusal(R"({"false_alarms": 1})"), "must lie between 0 and 0.1"));
+  CHECK(contains(refusal(R"({"reference": 1})"), "or more, from which the healthy scatter"));
 }
 
 TEST_CASE("inside a plant: what cannot be is refused with what would be right") {

@@ -81,6 +81,7 @@ std::map<std::string, Call> null_calls() {
        [] {
          return dashpot_observe(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
        }},
+      {"watch", [] { return dashpot_watch(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr); }},
   };
 }
 

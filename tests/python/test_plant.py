@@ -53,6 +53,30 @@ class InsideAPlant(InFolder):
         with self.assertRaises(KeyError):
             seen["damper_farce"]
 
+    def test_watched(self):
+        def day(seed, *wear):
+            words = ["--damper", "kwok2006", "--true", "mass=100kg", "--duration", "4", "--push", "800"]
+            folder = self.folder / f"day_{seed}"
+            program("bench", "--in", self.plant, *words, "--sample-rate", "200", "--seed", seed, *wear, "--output", folder)
+            return folder / "ride_1.csv"
+
+        plant = dict(PLANT, parameters=dict(PLANT["parameters"], mass="100 kg"), current="0 A")
+        model = dashpot.published("kwok2006")
+        choices = {"reference": 6, "false_alarms": 0.01}
+        taught = dashpot.watch(model, [day(seed) for seed in range(1, 8)], plant, **choices)
+        self.assertIsNone(taught.alarm)
+        self.assertEqual(len(taught.days), 7)
+
+        # The state as a file keeps it: the days before stand there, and the weak ones raise the alarm.
+        state = json.loads(json.dumps(taught.state))
+        weak = [day(seed, "--wear", "force=-0.3") for seed in range(20, 23)]
+        faded = dashpot.watch(model, weak, plant, state=state, **choices)
+        self.assertEqual(faded.days[:7], taught.days)
+        self.assertEqual(faded.alarm["quantity"], "force")
+        self.assertAlmostEqual(faded.alarm["fall"], 0.3, delta=0.06)
+        with self.assertRaisesRegex(dashpot.Error, "is of another level"):
+            dashpot.watch(model, weak, plant, state=state, level="x", **choices)
+
     def test_two_dampers(self):
         rig = {
             "plant": "matrices",

@@ -13,7 +13,7 @@ from ._core import DamperModel, Error, NotUsable, __version__
 from ._identify import Ranking, identify
 from ._learn import Identifier
 from ._looks import characterise, compare
-from ._plant import Observation, PlantFit, identify_in_plant, observe
+from ._plant import Observation, PlantFit, Watch, identify_in_plant, observe, watch
 from ._recordings import Recordings
 from ._simulate import Trace, simulate
 
@@ -40,4 +40,5 @@ __all__ = [
     "plot",
     "published",
     "simulate",
+    "watch",
 ]

@@ -1,4 +1,4 @@
-"""Dampers inside a plant: identified there, and observed."""
+"""Dampers inside a plant: identified there, observed, and followed from day to day."""
 
 import json
 import os
@@ -161,3 +161,63 @@ def observe(
     }
     core, report = _core.observe(model, _rides(rides, sample_time), _plant(plant), json.dumps(options), progress)
     return Observation(core, json.loads(report))
+
+
+class Watch:
+    """What `dashpot watch --json` prints, as `report`, and the state that the next days go on from."""
+
+    def __init__(self, report: dict):
+        self.state = report.pop("state")
+        self.report = report
+
+    @property
+    def alarm(self) -> Optional[dict]:
+        """The chart whose alarm came first: "quantity", "alarm" (the day), "since", "fall"; None where none has."""
+        places = {day["name"]: place for place, day in enumerate(self.days)}
+        alarms = [chart for chart in self.report["charts"] if "alarm" in chart]
+        return min(alarms, key=lambda chart: places[chart["alarm"]], default=None)
+
+    @property
+    def days(self) -> List[dict]:
+        """Each day: its name, the amounts by which the damper differs from its model, the plant, a remark."""
+        return self.report["days"]
+
+    def __repr__(self) -> str:
+        return f"<dashpot.Watch of {len(self.days)} days, {'ALARM' if self.report['alarm'] else 'no alarm'}>"
+
+
+def watch(
+    model: _core.DamperModel,
+    rides,
+    plant: Plant,
+    *,
+    state: Optional[dict] = None,
+    sample_time: float = 0,
+    tracked: Words = ("force",),
+    level: str = "",
+    known: Words = (),
+    reference: int = 20,
+    false_alarms: float = 0.001,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Watch:
+    """What `dashpot watch` does: a damper at work, followed from day to day, and an alarm when it fades.
+
+    rides, plant, sample_time: as of identify_in_plant(), one ride per day in their order. state: Watch.state of an
+    earlier call, whose days stand before these and are not looked at again; a dict that json keeps. tracked: "force",
+    "rebound", "compression", "viscous" or "stiffness". level: a sensor whose mean is followed, too. known: channels
+    whose mean may explain a day. reference: days that only teach. false_alarms: per day, all charts together.
+
+    Raises Error at what cannot be used, and where the state is of another model, plant or choice.
+    """
+    options = {
+        "tracked": words(tracked),
+        "level": level,
+        "known": words(known),
+        "reference": reference,
+        "false_alarms": false_alarms,
+        "threads": threads,
+        "state": state,
+    }
+    report = _core.watch(model, _rides(rides, sample_time), _plant(plant), json.dumps(options), progress)
+    return Watch(json.loads(report))

@@ -318,5 +318,6 @@ PYBIND11_MODULE(_core, module) {
       .def("add", &Rides::add);
   module.def("identify_in_plant", &identify_in_plant);
   module.def("observe", &observe);
+  module.def("watch", &watch);
   module.def("understand_column", &understand_column);
 }

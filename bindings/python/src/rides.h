@@ -4,7 +4,8 @@
 
 namespace dashpot_python {
 
-/// What sensors recorded of a plant: what dashpot.identify_in_plant and dashpot.observe take.
+/// What sensors recorded of a plant: what dashpot.identify_in_plant, dashpot.observe and
+/// dashpot.watch take.
 class Rides : public Owner<dashpot_rides, dashpot_rides_free> {
  public:
   Rides() { check(dashpot_rides_new(out())); }
@@ -46,6 +47,16 @@ inline py::tuple observe(const Model& model, const Rides& rides, const std::stri
                            estimates.out(), report.out());
   });
   return py::make_tuple(std::move(estimates), report.take());
+}
+
+inline std::string watch(const Model& model, const Rides& rides, const std::string& plant,
+                         const std::string& options, py::object progress) {
+  Text report;
+  Watched(std::move(progress)).run([&](const dashpot_monitor* monitor) {
+    return dashpot_watch(model.get(), rides.get(), plant.c_str(), options.c_str(), monitor,
+                         report.out());
+  });
+  return report.take();
 }
 
 }  // namespace dashpot_python

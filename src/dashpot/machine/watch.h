@@ -32,6 +32,9 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options);
 /// Of the work of watching, as progress tells it, what watched_plant() takes.
 inline constexpr double kPreparation = 0.3;
 
+/// Days, the first ones, that uncertainties are found on.
+inline constexpr std::size_t kPreparationDays = 3;
+
 /// The plant as the first reference days show it: uncertainties, and where its unknown numbers lie.
 /// Throws Error before long work where options, plant, damper and recordings do not fit together.
 WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Domain& domain,

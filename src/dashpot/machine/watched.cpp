@@ -1,0 +1,79 @@
+#include "dashpot/machine/watched.h"
+
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+Value day_json(const Watched& watched, std::size_t d) {
+  const WatchedDay& day = watched.days[d];
+  Value amounts = Value::object(), plant = Value::object(), known = Value::object();
+  for (const WatchedQuantity& q : watched.quantities) {
+    const ChartPoint& point = q.chart.points[d];
+    amounts.add(q.name, Value::object({{"value", day.estimate.wear[q.place]},
+                                       {"deviation", day.estimate.wear_deviation[q.place]},
+                                       {"expected", point.expected},
+                                       {"scatter", point.scatter},
+                                       {"score", point.score},
+                                       {"sum", point.sum}}));
+  }
+  for (std::size_t k = 0; k < day.estimate.plant.size(); ++k)
+    plant.add(watched.plant.setup.unknown[k].name, day.estimate.plant[k]);
+  for (std::size_t k = 0; k < day.known.size(); ++k)
+    known.add(watched.options.known[k], day.known[k]);
+  return Value::object({{"name", day.estimate.name},
+                        {"amounts", std::move(amounts)},
+                        {"plant", std::move(plant)},
+                        {"excitation", day.estimate.excitation},
+                        {"known", std::move(known)},
+                        {"converged", day.estimate.converged},
+                        {"remark", watched.remark(d)}});
+}
+
+}  // namespace
+
+const WatchedQuantity* Watched::first_alarm() const {
+  const WatchedQuantity* first = nullptr;
+  for (const WatchedQuantity& q : quantities)
+    if (q.chart.alarm && (!first || *q.chart.alarm < *first->chart.alarm)) first = &q;
+  return first;
+}
+
+bool Watched::is_judged(std::size_t day) const {
+  return quantities.front().chart.points[day].is_judged;
+}
+
+std::string Watched::remark(std::size_t day) const {
+  std::vector<std::string> remarks;
+  for (const WatchedQuantity& q : quantities)
+    if (q.chart.alarm == day) remarks.push_back("ALARM: " + q.name);
+  if (!days[day].estimate.converged) remarks.emplace_back("does not count: not converged");
+  if (remarks.empty() && !is_judged(day)) remarks.emplace_back("reference");
+  return join(remarks, ", ");
+}
+
+Value to_json(const Watched& watched) {
+  Value charts = Value::array(), days = Value::array();
+  for (const WatchedQuantity& q : watched.quantities) {
+    Value chart =
+        Value::object({{"quantity", q.name}, {"unit", q.unit}, {"threshold", q.chart.threshold}});
+    if (q.chart.alarm) {
+      chart.add("alarm", watched.days[*q.chart.alarm].estimate.name);
+      chart.add("since", watched.days[q.chart.since].estimate.name);
+      chart.add("fall", q.chart.fall);
+      chart.add("fall_deviation", q.chart.fall_deviation);
+    }
+    charts.push_back(std::move(chart));
+  }
+  for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
+  return Value::object({{"plant", watched.plant.setup.model->name},
+                        {"damper", watched.plant.damper->name()},
+                        {"alarm", watched.first_alarm() != nullptr},
+                        {"days_between_false_alarms", watched.options.chart.days},
+                        {"reference_days", watched.options.chart.reference},
+                        {"found", found_of(watched.plant)},
+                        {"charts", std::move(charts)},
+                        {"days", std::move(days)}});
+}
+
+}  // namespace dashpot
