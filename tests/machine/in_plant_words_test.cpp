@@ -116,9 +116,8 @@ TEST_CASE("a plant's recording counts what the plant says of its channels") {
   const InPlantSetup setup =
       read_in_plant_setup("oscillator,mass=1,stiffness=100,force=push,acceleration=a,current=coil");
   const auto read = [&](const std::string& head) {
-    const PlantRecording recording =
-        read_plant_recording(folder.write("ride.csv", head + "\n0,1,1,1\n1,2,2,1\n2,3,3,1\n"),
-                             setup.channels());
+    const PlantRecording recording = read_plant_recording(
+        folder.write("ride.csv", head + "\n0,1,1,1\n1,2,2,1\n2,3,3,1\n"), setup.channels());
     require_units(setup, recording);
     return recording;
   };

@@ -143,8 +143,7 @@ void bind_model(py::module_& module) {
                     "Made by load(), published(), identify() or Identifier.fit().")
       .def_static(
           "load", [](const std::filesystem::path& path) { return Model::load(path.string()); },
-          arg("path"),
-                  "The model of a file that save() or `dashpot identify` wrote.")
+          arg("path"), "The model of a file that save() or `dashpot identify` wrote.")
       .def_static("from_json", &Model::parse, arg("text"), "The model of such a file's text.")
       .def_static("published", &Model::published, arg("name"),
                   "A parameter set of the literature by its name, as \"spencer1997\".")

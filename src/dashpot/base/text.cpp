@@ -44,8 +44,7 @@ std::string format_exact(double value) {
 
 std::string format_number(double value, int digits) {
   std::array<char, 32> buffer;
-  const double unsigned_zero = value == 0 ? 0 : value;  // people know one zero
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), unsigned_zero,
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                     std::chars_format::general, digits);
   return {buffer.data(), result.ptr};
 }

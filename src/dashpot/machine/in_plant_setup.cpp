@@ -33,8 +33,8 @@ void require_units(const InPlantSetup& setup, const PlantRecording& recording) {
         unit->dimension == parse_unit(wanted)->dimension)
       return;
     throw Error(recording.name + ", " + name,
-                "is in " + channel.unit + " (" + channel.origin + "), and the plant says that it is in " +
-                    wanted,
+                "is in " + channel.unit + " (" + channel.origin +
+                    "), and the plant says that it is in " + wanted,
                 "another unit in the recording, or another 'quantity' in the plant's file");
   };
 

@@ -85,7 +85,8 @@ struct InPlantSetup {
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
 /// Throws Error where a channel of the recording counts something else than the setup says of it: a
-/// speed for an acceleration, a voltage for a current. A channel that states no unit is taken as SI.
+/// speed for an acceleration, a voltage for a current. A channel that states no unit is taken as
+/// SI.
 void require_units(const InPlantSetup& setup, const PlantRecording& recording);
 /// For what knows a single damper, and no road that follows another one. Throws Error "has 2
 /// dampers, and `who` knows one".

@@ -33,9 +33,8 @@ bool is_time(std::string_view name) {
 
 /// The unit in which a quantity of this dimension is kept.
 std::string si_text(const Unit& unit) {
-  static constexpr std::string_view kSi[] = {"1",   "m",     "m/s", "m/s^2", "N",
-                                             "rad", "rad/s", "A",   "V",     "s",
-                                             "kg",  "K",     "Pa"};
+  static constexpr std::string_view kSi[] = {"1", "m", "m/s", "m/s^2", "N", "rad", "rad/s",
+                                             "A", "V", "s",   "kg",    "K", "Pa"};
   for (const std::string_view si : kSi)
     if (const auto known = parse_unit(si); known && known->dimension == unit.dimension)
       return std::string(si);

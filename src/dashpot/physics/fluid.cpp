@@ -19,8 +19,8 @@ double more_than_zero(double value, const Value& at, const std::string& what) {
   throw Error(at.where(), what + " is " + format_number(value), "more than 0");
 }
 
-/// What the fluids of MR dampers have, with room to both sides. A number outside was written without
-/// its unit: 20 for 20 degC, 112 for 112 mPa*s, 40 for 40 kPa, 3 for 3 g/cm^3.
+/// What the fluids of MR dampers have, with room to both sides. A number outside was written
+/// without its unit: 20 for 20 degC, 112 for 112 mPa*s, 40 for 40 kPa, 3 for 3 g/cm^3.
 struct Usual {
   const char* what;
   double low, high;
@@ -145,8 +145,7 @@ FluidLaw read_fluid_law(const std::string& name, const Value& value) {
 
 void read_density(const Value& value, Fluid& fluid) {
   if (value.kind() != Value::Kind::Object) {
-    fluid.density_min = fluid.density_max =
-        usual(read_quantity(value, "kg/m^3"), kDensity, value);
+    fluid.density_min = fluid.density_max = usual(read_quantity(value, "kg/m^3"), kDensity, value);
     return;
   }
   ObjectReader reader(value, "a range of densities");

@@ -225,8 +225,7 @@ TEST_CASE("recorded ground is read in the unit that its column names") {
     CHECK(road.description.find("heights over 20 mm") != std::string::npos);
   }
   write_file(folder.path() / "road.csv", "s,z\n0,0\n1,0.02\n2,0\n");
-  CHECK(load_road(folder.path() / "road.csv").description.find("taken as m)") !=
-        std::string::npos);
+  CHECK(load_road(folder.path() / "road.csv").description.find("taken as m)") != std::string::npos);
 }
 
 TEST_CASE("ground that cannot be made is refused, with what would be right") {

@@ -29,8 +29,8 @@ std::string unit_of(const RawColumn& column) {
   return parse_unit(ending) && !parse_number(ending) ? std::string(ending) : std::string();
 }
 
-/// What is stated, else what the column states, else `si`; of the dimension of `si`. An earthquake's
-/// g is that of gravity, and no gram.
+/// What is stated, else what the column states, else `si`; of the dimension of `si`. An
+/// earthquake's g is that of gravity, and no gram.
 Unit unit_for(const RawColumn& column, std::string_view stated, std::string_view si,
               const std::string& file, const std::string& right) {
   std::string text(stated.empty() ? unit_of(column) : stated);
@@ -156,10 +156,9 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
   // Time and acceleration, in SI.
   const std::vector<double> time = in_seconds(table.columns[0], file);
   const RawColumn& shaking = table.columns[1];
-  const double factor =
-      unit_for(shaking, unit_stated, "m/s^2", file,
-               "an acceleration: m/s^2, cm/s^2 or g0, there or as unit=g0")
-          .factor;
+  const double factor = unit_for(shaking, unit_stated, "m/s^2", file,
+                                 "an acceleration: m/s^2, cm/s^2 or g0, there or as unit=g0")
+                            .factor;
   std::vector<double> acceleration;
   double greatest = 0;
   for (const double a : numbers_of(shaking, file)) {
