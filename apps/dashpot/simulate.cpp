@@ -41,8 +41,13 @@ constexpr std::string_view kSimulateExample =
 
 Simulation simulate_choice(const SimulateSettings& settings, Console& console) {
   const VehicleWords words = words_of(settings.vehicle);
-  const auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words));
-  const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, vehicle->set.plant);
+  Vehicle driven = make_vehicle(words);
+  const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, driven.set.plant);
+  if (sides_meet_one_road(driven.set.plant, *ground))
+    driven.notes.emplace_back(
+        "left and right wheels meet the same road, so that the car does not roll; "
+        "'track_width=1.5m' of the road gives each side its own");
+  const auto vehicle = std::make_shared<const Vehicle>(std::move(driven));
 
   // Both runs have the same options, so that they can be compared.
   const RunOptions options{

@@ -141,6 +141,17 @@ GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plan
   return ground;
 }
 
+bool sides_meet_one_road(const Plant& plant, const GroundMotion& ground) {
+  if (!ground.is_steady() || !(ground.speed() > 0)) return false;
+  if (std::ranges::all_of(plant.tyres, [](const Tyre& tyre) { return tyre.track == 0; }))
+    return false;
+  constexpr int kPlaces = 50;
+  constexpr double kStep = 0.1;  // s
+  for (int k = 1; k <= kPlaces; ++k)
+    if (ground.foot(kStep * k, 0, 0).height != ground.foot(kStep * k, 1, 0).height) return false;
+  return true;
+}
+
 double duration_of(const RoadChoice& choice, const GroundMotion& ground) {
   if (choice.duration > 0) return choice.duration;
   if (ground.is_steady()) return std::min(ground.duration(), kOnRoad);

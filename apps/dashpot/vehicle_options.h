@@ -41,6 +41,9 @@ std::vector<std::string> words_between(const std::string& text);
 VehicleWords words_of(const VehicleChoice& choice);
 /// Throws Error where it suits no such plant: a road under a building.
 GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plant& plant);
+
+/// Whether left and right wheels of a car with both meet a rough road of one track: it never rolls.
+bool sides_meet_one_road(const Plant& plant, const GroundMotion& ground);
 /// s.
 double duration_of(const RoadChoice& choice, const GroundMotion& ground);
 

@@ -18,6 +18,14 @@ TEST_CASE("simulate: measures against passive, a page and both traces") {
   CHECK(std::filesystem::exists(out + "/against.csv"));
 }
 
+TEST_CASE("simulate: a car on a road of one track is said not to roll") {
+  const std::string car = "simulate --plant ikenaga2000 --duration 1 --road iso8608_fft,length=50";
+  CHECK(contains(run_dashpot(car).output, "the car does not roll"));
+  CHECK(!contains(run_dashpot(car + ",track_width=1.5m").output, "the car does not roll"));
+  CHECK(!contains(run_dashpot("simulate --duration 1 --road iso8608_fft,length=50").output,
+                  "does not roll"));
+}
+
 TEST_CASE("simulate: JSON, MATLAB traces, no comparison") {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();

@@ -111,6 +111,28 @@ TEST_CASE("a plant in words: known, unknown, ranges, places and levels") {
   CHECK(contains(wrong("nowhere.yaml"), "there is no such file"));
 }
 
+TEST_CASE("a plant's recording counts what the plant says of its channels") {
+  const TemporaryFolder folder;
+  const InPlantSetup setup =
+      read_in_plant_setup("oscillator,mass=1,stiffness=100,force=push,acceleration=a,current=coil");
+  const auto read = [&](const std::string& head) {
+    const PlantRecording recording = read_plant_recording(
+        folder.write("ride.csv", head + "\n0,1,1,1\n1,2,2,1\n2,3,3,1\n"), setup.channels());
+    require_units(setup, recording);
+    return recording;
+  };
+
+  // The g of an accelerometer is that of gravity.
+  CHECK_CLOSE(read("time [ms],push [N],a [g],coil").channel("a").samples[1], 2 * 9.80665, 1e-9, 0);
+  CHECK_CLOSE(read("time,push,a [mg],coil").channel("a").samples[1], 2e-3 * 9.80665, 1e-9, 0);
+  CHECK(read("time,push,a [mm/s^2],coil [mA]").channel("coil").samples[1] == 1e-3);
+
+  const auto wrong = [&](const std::string& head) { return message_of([&] { read(head); }); };
+  CHECK(contains(wrong("time,push,a [mm/s],coil"), "a: is in m/s (column a, mm/s), and the plant"));
+  CHECK(contains(wrong("time,push [mm],a,coil"), "says that it is in N"));
+  CHECK(contains(wrong("time,push,a,coil [V]"), "says that it is in A"));
+}
+
 TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") {
   const TemporaryFolder folder;
   const auto read = [&](const std::string& text) {

@@ -138,6 +138,12 @@ TEST_CASE("a fluid that cannot be is refused with its line and what would be rig
   says("kPa]", "kN]", "not a unit of it");
   says("0.2 Pa*s", "-0.2 Pa*s", "viscosity is -0.2");
   says("8 %", "800 %", "a share");
+  // Units that were forgotten.
+  says("0.2 Pa*s", "200", "viscosity is 200 Pa*s");
+  says("density: ", "density: 3 #", "density is 3 kg/m^3; 500 to 1e+04 kg/m^3, with its unit");
+  says("[[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]",
+       "[[0, 0.2], [100 kA/m, 20], [200 kA/m, 35]]", "greatest yield stress is 35 Pa");
+  says("[20 degC, ", "[20, ", "temperature is 20 K");
   says("measured:", "My Law:", "names no law");
   says("{points: [[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]}",
        "{polynomial: [100, 0.3, -1e-6], up_to: 300 kA/m}", "the yield stress falls");

@@ -35,6 +35,15 @@ class Prediction(unittest.TestCase):
             with self.assertRaises((TypeError, ValueError)):
                 self.model.predict(X, 0.01)
 
+    def test_masked_samples_are_refused(self):
+        X = np.ma.masked_array(self.X, mask=np.zeros_like(self.X))
+        np.testing.assert_array_equal(self.model.predict(X), self.force)
+        X[3, 2] = np.ma.masked
+        with self.assertRaisesRegex(TypeError, "masked"):
+            self.model.predict(X)
+        with self.assertRaisesRegex(TypeError, "masked"):
+            self.model.run(X[:, 2], X[:, 3], X[:, 1], time=X[:, 0])
+
     def test_separate_columns_and_values_that_stay(self):
         t, x, v, _ = self.X.T
         np.testing.assert_array_equal(self.model.run(v, 1.0, x, time=t), self.force)
@@ -93,9 +102,9 @@ class WrongUse(unittest.TestCase):
 class Keeping(InFolder):
     def test_files_pickles_and_copies_are_the_same_model(self):
         model = dashpot.published("spencer1997")
-        path = str(self.folder / "model.json")
+        path = Path(self.folder) / "model.json"
         model.save(path)
-        for other in (dashpot.load(path), pickle.loads(pickle.dumps(model)), copy.deepcopy(model)):
+        for other in (dashpot.load(path), dashpot.load(str(path)), pickle.loads(pickle.dumps(model)), copy.deepcopy(model)):
             self.assertEqual(other.to_json(), model.to_json())
         self.assertEqual((model.name, model.kind, model.drive_unit), ("modified_bouc_wen", "law", "V"))
         self.assertEqual(model.domain["current"], (0.0, 2.25))

@@ -34,6 +34,8 @@ TEST_CASE("columns are recognised by their names") {
       {"V", "V", "voltage", "V"},
       {"V", "cm/s", "velocity", "cm/s"},
       {"A [g0]", "", "acceleration", "g0"},
+      {"acc (g)", "", "acceleration", "g0"},
+      {"acceleration", "g", "acceleration", "g0"},
   };
   for (const Known& k : known) {
     CAPTURE(std::string(k.column));

@@ -42,6 +42,17 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("a current sensor whose zero is off by less than nothing reads 0 A, and no -0 A") {
+  const TemporaryFolder folder;
+  std::string text = "t_s,x_mm,F_N,I_A\n";
+  for (int k = 0; k < 200; ++k)
+    text += format_number(0.01 * k, 6) + "," + format_number(10 * std::sin(0.0628 * k), 6) + "," +
+            format_number(500 * std::cos(0.0628 * k), 6) + ",-0.0004\n";
+  folder.write("run.csv", text);
+  const Dataset dataset = load(folder.path());
+  CHECK(!std::signbit(*dataset.records.at(0).drive_level));
+}
+
 TEST_CASE("a folder of CSV files is understood by its names") {
   const TemporaryFolder folder;
   folder.write("run_0A.csv", sine_csv());

@@ -95,6 +95,24 @@ TEST_CASE("a last number that was cut and values of no damper are told") {
   CHECK(contains(only_doubt(unit), "is none of a damper: the unit or the column may be wrong"));
 }
 
+TEST_CASE("a channel that was sampled more slowly and held is told with its rate") {
+  Record record = sound_record();
+  std::vector<double>& x = samples(record, "displacement");
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = x[k - k % 10];
+  CHECK(contains(only_doubt(record),
+                 "the displacement stands for 10 samples at a time: it was sampled at 50 Hz"));
+
+  Record other = sound_record();
+  std::vector<double>& force = samples(other, "force");
+  for (std::size_t k = 0; k < force.size(); ++k) force[k] = force[k - k % 5 % 3];
+  CHECK(contains(only_doubt(other), "the force stands for"));
+
+  // A coarse sensor stands as well, and goes on by one step of its resolution.
+  Record coarse = sound_record();
+  for (double& value : samples(coarse, "displacement")) value = std::round(value / 5e-4) * 5e-4;
+  CHECK(doubts_about(coarse).empty());
+}
+
 TEST_CASE("a suspect record of a folder is used, and told first") {
   const TemporaryFolder folder;
   std::string rows = "t [s],x [mm],F [N]\n";

@@ -22,7 +22,9 @@ inline bool is_in_place(const py::array& array) {
 /// The array itself, or a copy of other numbers as float64. Raises TypeError at what is not real
 /// numbers.
 inline py::array as_float64(const py::object& values) {
-  if (py::isinstance<py::array>(values)) {
+  // A kind of array of its own, as one with a mask, says more than its samples.
+  if (reinterpret_cast<PyObject*>(Py_TYPE(values.ptr())) ==
+      reinterpret_cast<PyObject*>(py::detail::npy_api::get().PyArray_Type_)) {
     auto array = py::reinterpret_borrow<py::array>(values);
     if (is_in_place(array)) return array;
   }

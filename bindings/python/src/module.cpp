@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "model.h"
 #include "recordings.h"
@@ -140,12 +141,16 @@ void bind_model(py::module_& module) {
                     "A damper model: motion and current in, force out. It never changes.\n\n"
                     "SI units; extension positive; the force positive when it resists extension.\n"
                     "Made by load(), published(), identify() or Identifier.fit().")
-      .def_static("load", &Model::load, arg("path"),
-                  "The model of a file that save() or `dashpot identify` wrote.")
+      .def_static(
+          "load", [](const std::filesystem::path& path) { return Model::load(path.string()); },
+          arg("path"), "The model of a file that save() or `dashpot identify` wrote.")
       .def_static("from_json", &Model::parse, arg("text"), "The model of such a file's text.")
       .def_static("published", &Model::published, arg("name"),
                   "A parameter set of the literature by its name, as \"spencer1997\".")
-      .def("save", &Model::save, arg("path"), "Writes a model file (JSON).")
+      .def(
+          "save",
+          [](const Model& model, const std::filesystem::path& path) { model.save(path.string()); },
+          arg("path"), "Writes a model file (JSON).")
       .def("to_json", &Model::text, "The text of its model file.")
       .def("_parameters", &Model::parameters)
       .def_property_readonly(

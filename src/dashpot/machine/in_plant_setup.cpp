@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/plant_recording.h"
 
 namespace dashpot {
 
@@ -21,6 +23,33 @@ std::vector<std::string> InPlantSetup::channels() const {
 }
 
 std::size_t InPlantSetup::dampers() const { return make_plant(*model, known).struts.size(); }
+
+void require_units(const InPlantSetup& setup, const PlantRecording& recording) {
+  const auto require = [&](const std::string& name, const std::string& wanted) {
+    const Channel& channel = recording.channel(name);
+    // Of a recording alone: a simulation's trace counts whatever drives a coil in A.
+    const std::optional<Unit> unit = parse_unit(channel.unit);
+    if (!channel.origin.starts_with("column ") || !unit ||
+        unit->dimension == parse_unit(wanted)->dimension)
+      return;
+    throw Error(recording.name + ", " + name,
+                "is in " + channel.unit + " (" + channel.origin +
+                    "), and the plant says that it is in " + wanted,
+                "another unit in the recording, or another 'quantity' in the plant's file");
+  };
+
+  const Plant plant = make_plant(*setup.model, setup.known);
+  for (const PlantInputChannel& input : setup.inputs) {
+    const bool turns = input.place.kind == PlantInput::Force &&
+                       plant.coordinates[input.place.coordinate].unit != "m";
+    if (!input.channel.empty() && input.follows.empty() && !turns)
+      require(input.channel, unit_of(input.place.kind));
+  }
+  for (const PlantSensor& sensor : setup.sensors)
+    require(sensor.channel, unit_of(sensor.place, plant));
+  if (!setup.drive.empty() && setup.drive_unit != DriveUnit::None)
+    require(setup.drive, to_string(setup.drive_unit));
+}
 
 void require_one_damper(const InPlantSetup& setup, const std::string& who) {
   if (const std::size_t dampers = setup.dampers(); dampers > 1)

@@ -57,6 +57,7 @@ struct PlantSensor {
 };
 
 struct PlantOfMatrices;
+struct PlantRecording;
 
 /// What is known of a plant, and what was measured on it.
 struct InPlantSetup {
@@ -83,6 +84,10 @@ struct InPlantSetup {
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
 /// or a sensor that is missing.
 void require_setup(const InPlantSetup& setup);
+/// Throws Error where a channel of the recording counts something else than the setup says of it: a
+/// speed for an acceleration, a voltage for a current. A channel that states no unit is taken as
+/// SI.
+void require_units(const InPlantSetup& setup, const PlantRecording& recording);
 /// For what knows a single damper, and no road that follows another one. Throws Error "has 2
 /// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);

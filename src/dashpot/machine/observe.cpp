@@ -292,6 +292,7 @@ void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup
 }  // namespace
 
 ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording& recording) {
+  require_units(setup, recording);
   const std::vector<std::string> inputs = measured_inputs(setup);
   ObservedSamples samples{.count = recording.samples,
                           .inputs = inputs.size(),

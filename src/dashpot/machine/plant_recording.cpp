@@ -32,14 +32,23 @@ bool is_time(std::string_view name) {
 }
 
 /// The unit in which a quantity of this dimension is kept.
-std::string si_text(const std::string& unit, const std::string& where) {
-  static constexpr std::string_view kSi[] = {"1",   "m",     "m/s", "m/s^2", "N",
-                                             "rad", "rad/s", "A",   "V",     "s"};
-  const Dimension wanted = require_unit(unit, where).dimension;
+std::string si_text(const Unit& unit) {
+  static constexpr std::string_view kSi[] = {"1", "m", "m/s", "m/s^2", "N", "rad", "rad/s",
+                                             "A", "V", "s",   "kg",    "K", "Pa"};
   for (const std::string_view si : kSi)
-    if (const auto known = parse_unit(si); known && known->dimension == wanted)
+    if (const auto known = parse_unit(si); known && known->dimension == unit.dimension)
       return std::string(si);
   return "SI";
+}
+
+/// A unit as it stands in a file, of what sensors on a plant show: its g is that of gravity, and no
+/// gram.
+Unit sensor_unit(const std::string& unit, const std::string& where) {
+  if (unit == "g" || unit == "G") return require_unit("g0", where);
+  if (unit != "mg") return require_unit(unit, where);
+  Unit thousandth = require_unit("g0", where);
+  thousandth.factor *= 1e-3;
+  return thousandth;
 }
 
 /// The step of stamps that lie on a uniform grid to a hundredth of it, as logs of few digits do; 0
@@ -118,9 +127,9 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
     if (unit.empty()) {
       channel.origin = "column " + name + ", taken as SI: no unit given";
     } else {
-      const Unit of = require_unit(unit, where);
+      const Unit of = sensor_unit(unit, where);
       for (double& value : channel.samples) value = of.factor * value + of.offset;
-      channel.unit = si_text(unit, where);
+      channel.unit = si_text(of);
       channel.origin = "column " + name + ", " + unit;
     }
     recording.channels.push_back(std::move(channel));

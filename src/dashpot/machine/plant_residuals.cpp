@@ -57,6 +57,7 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
   constexpr std::size_t kFirstGuess = 2, kFewest = 200;
   PlantCases cases{.all = {}, .steps = steps > 0 ? steps : kFirstGuess, .method = method};
   for (const PlantRecording& recording : recordings) {
+    require_units(setup, recording);
     PlantCase one{.name = recording.name};
     one.driving = {.sample_time = recording.sample_time,
                    .samples = recording.samples,

@@ -56,6 +56,7 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
 
   constexpr std::size_t kFewest = 500;
   for (const PlantRecording& recording : recordings) {
+    require_units(setup, recording);
     const auto first =
         static_cast<std::size_t>(std::max(kFilterSettles, setup.skip) / recording.sample_time);
     const std::size_t fitted = fitted_samples(setup, recording);

@@ -19,6 +19,26 @@ double more_than_zero(double value, const Value& at, const std::string& what) {
   throw Error(at.where(), what + " is " + format_number(value), "more than 0");
 }
 
+/// What the fluids of MR dampers have, with room to both sides. A number outside was written
+/// without its unit: 20 for 20 degC, 112 for 112 mPa*s, 40 for 40 kPa, 3 for 3 g/cm^3.
+struct Usual {
+  const char* what;
+  double low, high;
+  const char *unit, *example;
+};
+constexpr Usual kTemperature{"temperature", 200, 500, "K", "20 degC"},
+    kViscosity{"viscosity", 1e-4, 20, "Pa*s", "0.11 Pa*s"},
+    kDensity{"density", 500, 1e4, "kg/m^3", "3000 kg/m^3"},
+    kGreatestYield{"greatest yield stress", 150, 1e6, "Pa", "42 kPa"};
+
+double usual(double value, const Usual& range, const Value& at) {
+  if (value >= range.low && value <= range.high) return value;
+  const std::string unit = std::string(" ") + range.unit;
+  throw Error(at.where(), std::string(range.what) + " is " + format_number(value) + unit,
+              format_number(range.low) + " to " + format_number(range.high) + unit +
+                  ", with its unit, as " + range.example);
+}
+
 /// A share of 0 to 1, as "8 %".
 double read_share(const Value& value, const std::string& what) {
   const double share = read_quantity(value, "1");
@@ -79,6 +99,7 @@ void read_yield(const Value& value, FluidLaw& law) {
   if (points) {
     law.yield_stresses = read_points(*points, "A/m", "Pa");
     require_rising(law.yield_stresses, *points, "the yield stress", false);
+    usual(law.yield_stresses.back().second, kGreatestYield, *points);
   }
   if (polynomial) {
     const std::vector<double> c = polynomial->as_numbers();
@@ -124,14 +145,13 @@ FluidLaw read_fluid_law(const std::string& name, const Value& value) {
 
 void read_density(const Value& value, Fluid& fluid) {
   if (value.kind() != Value::Kind::Object) {
-    fluid.density_min = fluid.density_max =
-        more_than_zero(read_quantity(value, "kg/m^3"), value, "density");
+    fluid.density_min = fluid.density_max = usual(read_quantity(value, "kg/m^3"), kDensity, value);
     return;
   }
   ObjectReader reader(value, "a range of densities");
   const Value &from = reader.required("from"), &to = reader.required("to");
-  fluid.density_min = more_than_zero(read_quantity(from, "kg/m^3"), from, "density");
-  fluid.density_max = more_than_zero(read_quantity(to, "kg/m^3"), to, "density");
+  fluid.density_min = usual(read_quantity(from, "kg/m^3"), kDensity, from);
+  fluid.density_max = usual(read_quantity(to, "kg/m^3"), kDensity, to);
   reader.finish();
   if (fluid.density_min > fluid.density_max)
     throw Error(value.where(), "the density is from more than to");
@@ -145,7 +165,9 @@ void read_viscosity(const Value& value, Fluid& fluid) {
   else
     fluid.viscosities = {{kUsualTemperature, read_quantity(value, "Pa*s")}};
   for (const auto& [temperature, viscosity] : fluid.viscosities)
-    more_than_zero(viscosity, value, "viscosity");
+    usual(viscosity, kViscosity, value);
+  for (const auto& [temperature, viscosity] : fluid.viscosities)
+    usual(temperature, kTemperature, value);
 }
 
 }  // namespace

@@ -495,7 +495,7 @@ void add_drive(Record& record, const std::optional<KnownLevel>& known, std::stri
     const double mean = mean_of(*drive);
     // Sensor noise on a constant level: levels are set in steps of hundredths at the finest.
     if (*high - *low <= std::max(0.02, 0.05 * std::abs(mean)))
-      record.drive_level = std::round(mean * 100) / 100;
+      record.drive_level = std::round(mean * 100) / 100 + 0.0;  // no -0
     return;
   }
 }

@@ -141,8 +141,11 @@ std::vector<Parts> possible_parts(std::string_view column) {
 /// Channel of a name and its unit, which may be empty. The problem says why a familiar name is not
 /// used.
 NamedChannel resolve(const std::string& name, const std::string& given) {
-  // "F" is a unit of temperature only, and no farad.
-  const std::string unit = given == "F" && channel_of(name) == "temperature" ? "degF" : given;
+  // "F" is a unit of temperature only, and no farad; the g of an accelerometer is no gram.
+  const std::string known = channel_of(name);
+  std::string unit = given;
+  if (given == "F" && known == "temperature") unit = "degF";
+  if ((given == "g" || given == "G") && known == "acceleration") unit = "g0";
   const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
   for (const Ambiguous& word : kAmbiguous) {
     if (word.name != name) continue;

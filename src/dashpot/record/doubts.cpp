@@ -143,6 +143,51 @@ std::optional<std::string> spikes(const Record& record, const Samples& values, d
          seconds(record.time[first]);
 }
 
+/// A channel that was sampled more slowly than the record and held in between: runs of equal values
+/// of one length, and steps between them far above the resolution. A slow motion before a coarse
+/// sensor stands as long, but goes on by one step of its resolution.
+std::optional<std::string> held(const Record& record, const Samples& values,
+                                std::string_view name) {
+  constexpr std::size_t kFewest = 10, kRest = 3;
+  constexpr double kAlike = 0.8, kAbove = 3;
+  const std::vector<Run> runs = equal_runs(values, 1);
+  if (runs.size() < kFewest) return std::nullopt;
+
+  // How long it stands, and how far it goes then: the medians.
+  std::vector<std::size_t> lengths;
+  Samples steps;
+  for (std::size_t k = 1; k < runs.size(); ++k) {
+    lengths.push_back(runs[k - 1].count());
+    steps.push_back(std::abs(values[runs[k].first] - values[runs[k - 1].first]));
+  }
+  const auto middle = static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, lengths.begin() + middle);
+  std::ranges::nth_element(steps, steps.begin() + middle);
+  const std::size_t length = lengths[static_cast<std::size_t>(middle)];
+  const double resolution = std::ranges::min(steps);
+  if (length < 2 || steps[static_cast<std::size_t>(middle)] < kAbove * resolution)
+    return std::nullopt;
+
+  // Nearly all stand as long, give or take a sample; what stands much longer is at rest.
+  const std::size_t least = std::max<std::size_t>(length - 1, 2);
+  std::size_t alike = 0, moving = 0, samples = 0;
+  for (const std::size_t one : lengths) {
+    moving += one <= kRest * length;
+    if (one < least || one > length + 1) continue;
+    ++alike;
+    samples += one;
+  }
+  if (static_cast<double>(alike) < kAlike * static_cast<double>(moving)) return std::nullopt;
+
+  const double each = static_cast<double>(samples) / static_cast<double>(alike),
+               span = record.time.back() - record.time.front(),
+               rate = static_cast<double>(record.size() - 1) / (each * span);
+  return "the " + std::string(name) + " stands for " + format_number(each, 3) +
+         " samples at a time: it was sampled at " + format_number(rate, 3) +
+         " Hz and held, which bends the loops; 'resample: " + format_number(rate, 3) +
+         "' in a dataset file brings all channels to that rate";
+}
+
 /// A last step far above all others, as where the digits of a last number are missing.
 std::optional<std::string> leap_at_end(const Samples& values, std::string_view name) {
   constexpr double kLeap = 10;
@@ -198,6 +243,8 @@ std::vector<std::string> doubts_about(const Record& record) {
       if (span > 0) add(spikes(record, channel->samples, span, channel->name));
       add(leap_at_end(channel->samples, channel->name));
     }
+  for (const std::string_view name : {"displacement", "velocity", "force"})
+    if (const Channel* channel = record.find(name)) add(held(record, channel->samples, name));
 
   // What the motion makes implausible.
   if (!displacement) return doubts;

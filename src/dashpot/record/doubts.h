@@ -12,9 +12,10 @@ inline constexpr std::string_view kSuspectNote = "suspect: ";
 
 /// What speaks against a record, each in words with its place: a channel that stands still while
 /// the damper moves, a force that is clipped, single samples far from both neighbours, a last
-/// sample that leaps as where a file was cut off, values that no test of a damper has. Empty for a
-/// sound record. The thresholds are shares of the channel's own span, so that noise and the
-/// resolution of a sensor raise none; an ideal dry friction without noise looks clipped.
+/// sample that leaps as where a file was cut off, a channel that was sampled more slowly than the
+/// record and held, values that no test of a damper has. Empty for a sound record. The thresholds
+/// are shares of the channel's own span, so that noise and the resolution of a sensor raise none;
+/// an ideal dry friction without noise looks clipped.
 std::vector<std::string> doubts_about(const Record& record);
 
 }  // namespace dashpot

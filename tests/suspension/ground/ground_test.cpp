@@ -181,6 +181,53 @@ TEST_CASE("the measured road and the earthquakes can be read") {
   CHECK(load_earthquake(shaking / "kobe.mat")->duration() > 10);
 }
 
+TEST_CASE("recorded ground is read in the unit that its column names") {
+  const TemporaryFolder folder;
+  const auto peak_of = [&](const std::string& text, std::string_view unit = "") {
+    write_file(folder.path() / "quake.csv", text);
+    const GroundPointer quake = load_earthquake(folder.path() / "quake.csv", unit);
+    CHECK_CLOSE(quake->duration(), 0.04, 1e-9, 0);
+    return quake->acceleration(0.02);
+  };
+  constexpr double kHalf = 0.5 * 9.80665;
+  CHECK_CLOSE(peak_of("time (s),acc (g)\n0,0\n0.02,0.5\n0.04,0\n"), kHalf, 1e-9, 0);
+  CHECK_CLOSE(peak_of("time [ms],acc [mg]\n0,0\n20,500\n40,0\n"), kHalf, 1e-9, 0);
+  CHECK_CLOSE(peak_of("t_s,a_g0\n0,0\n0.02,0.5\n0.04,0\n"), kHalf, 1e-9, 0);
+  CHECK_CLOSE(peak_of("time,acc\ns,cm/s^2\n0,0\n0.02,50\n0.04,0\n"), 0.5, 1e-9, 0);
+  CHECK_CLOSE(peak_of("time (s),acc (gal)\n0,0\n0.02,50\n0.04,0\n"), 0.5, 1e-9, 0);
+  CHECK_CLOSE(peak_of("time (s),acc\n0,0\n0.02,0.5\n0.04,0\n"), 0.5, 1e-9, 0);
+  CHECK_CLOSE(peak_of("time (s),acc (g)\n0,0\n0.02,0.5\n0.04,0\n", "m/s^2"), 0.5, 1e-9, 0);
+
+  // The result says how strong it was, and what nobody stated.
+  const auto described = [&](const std::string& head) {
+    write_file(folder.path() / "quake.csv", head + "\n0,0\n0.02,0.5\n0.04,0\n");
+    return load_earthquake(folder.path() / "quake.csv")->description();
+  };
+  CHECK(described("t,acc (g)") == "quake.csv, greatest acceleration 4.9 m/s^2, time scale 1");
+  CHECK(described("t,acc").find("taken as m/s^2") != std::string::npos);
+
+  // What cannot be meant is refused.
+  const auto refused = [&](const std::string& text) {
+    write_file(folder.path() / "quake.csv", text);
+    return message_of([&] { load_earthquake(folder.path() / "quake.csv"); });
+  };
+  CHECK(refused("t (s),z (mm)\n0,0\n0.02,1\n0.04,0\n").find("an acceleration") !=
+        std::string::npos);
+  CHECK(refused("t,acc\n0,0\n20,1\n40,0\n").find("no seconds") != std::string::npos);
+  CHECK(refused("t,ax (g),ay (g)\n0,0,0\n0.02,1,2\n0.04,0,0\n").find("has 3 columns") !=
+        std::string::npos);
+
+  // Roads alike.
+  for (const std::string_view head : {"s [m],z [mm]", "s_m,z_mm", "s (m),z (mm)"}) {
+    write_file(folder.path() / "road.csv", std::string(head) + "\n0,0\n1,20\n2,0\n");
+    const RoadProfile road = load_road(folder.path() / "road.csv");
+    CHECK_CLOSE(road.tracks[0][1], 0.02, 1e-9, 0);
+    CHECK(road.description.find("heights over 20 mm") != std::string::npos);
+  }
+  write_file(folder.path() / "road.csv", "s,z\n0,0\n1,0.02\n2,0\n");
+  CHECK(load_road(folder.path() / "road.csv").description.find("taken as m)") != std::string::npos);
+}
+
 TEST_CASE("ground that cannot be made is refused, with what would be right") {
   const auto refusal = [](const std::string& text) {
     return message_of([&] { make_ground(text, 1); });

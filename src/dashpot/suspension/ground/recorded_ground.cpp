@@ -28,9 +28,9 @@ const std::array kRecorded{
     RecordedGround{
         .name = "earthquake",
         .title = "Recorded ground acceleration",
-        .remarks = "For buildings; a file with time in s and acceleration at equal steps.",
+        .remarks = "For buildings; a file with time and acceleration at equal steps.",
         .settings = {{"file", "with the record", ""},
-                     {"unit", "of the acceleration: m/s^2, g0", "m/s^2"},
+                     {"unit", "where the column names none: m/s^2, cm/s^2, g0", ""},
                      {"time_scale", "0.2: five times as fast, for a model of a fifth of the size",
                       "1"}},
         .make = make_earthquake},

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
@@ -12,14 +13,38 @@
 namespace dashpot {
 namespace {
 
-/// "(ft)" at the end of a column's name, else what is stated.
-std::string unit_text(const RawColumn& column, std::string_view stated) {
-  if (!stated.empty()) return std::string(stated);
+/// The unit that a column states: below its name, in brackets behind it ("height [mm]"), or behind
+/// its last underscore ("z_mm"); "" where it states none. "(2)" counts columns and is none.
+std::string unit_of(const RawColumn& column) {
   if (!column.unit.empty()) return column.unit;
-  const std::size_t open = column.name.rfind('('), close = column.name.rfind(')');
-  if (open != std::string::npos && close != std::string::npos && close > open)
-    return column.name.substr(open + 1, close - open - 1);
-  return "m";
+  const std::string_view name = trim(column.name);
+  const std::size_t open = name.find_first_of("[("), close = name.find_last_of("])");
+  if (open != std::string_view::npos && close != std::string_view::npos && close > open) {
+    const std::string_view inside = trim(name.substr(open + 1, close - open - 1));
+    return parse_number(inside) ? "" : std::string(inside);
+  }
+  const std::size_t mark = name.rfind('_');
+  if (mark == std::string_view::npos || mark == 0) return {};
+  const std::string_view ending = name.substr(mark + 1);
+  return parse_unit(ending) && !parse_number(ending) ? std::string(ending) : std::string();
+}
+
+/// What is stated, else what the column states, else `si`; of the dimension of `si`. An
+/// earthquake's g is that of gravity, and no gram.
+Unit unit_for(const RawColumn& column, std::string_view stated, std::string_view si,
+              const std::string& file, const std::string& right) {
+  std::string text(stated.empty() ? unit_of(column) : stated);
+  if (text.empty()) text = si;
+  const Dimension wanted = require_unit(si, file).dimension;
+  if (wanted == require_unit("m/s^2", file).dimension) {
+    if (text == "g" || text == "G") text = "g0";
+    if (text == "mg") return {wanted, 1e-3 * require_unit("g0", file).factor};
+    if (lower(text) == "gal") text = "cm/s^2";
+  }
+  const std::optional<Unit> unit = parse_unit(text);
+  if (!unit || unit->dimension != wanted)
+    throw Error(file, "'" + column.name + "' is counted in '" + text + "'", right);
+  return *unit;
 }
 
 /// Throws Error where a cell is no number, or one that no road and no earthquake has.
@@ -35,15 +60,37 @@ const std::vector<double>& numbers_of(const RawColumn& column, const std::string
   return column.values;
 }
 
+void require_rising(const std::vector<double>& values, const std::string& file, const char* what) {
+  if (values.size() < 3)
+    throw Error(file, "has " + std::to_string(values.size()) + " rows", "three at least");
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (!(values[k] > values[k - 1]))
+      throw Error(file, std::string(what) + " does not rise in row " + std::to_string(k + 1));
+}
+
 std::vector<double> in_metres(const RawColumn& column, std::string_view stated,
                               const std::string& file) {
-  const std::vector<double>& numbers = numbers_of(column, file);
-  const Unit unit = require_unit(unit_text(column, stated), file);
-  if (unit.dimension != require_unit("m", file).dimension)
-    throw Error(file, "'" + column.name + "' is counted in " + unit_text(column, stated),
-                "a length, as m, ft or in");
+  const double factor =
+      unit_for(column, stated, "m", file, "a length: m, mm, ft or in, there or as height_unit=mm")
+          .factor;
   std::vector<double> values;
-  for (const double value : numbers) values.push_back(unit.factor * value);
+  for (const double value : numbers_of(column, file)) values.push_back(factor * value);
+  return values;
+}
+
+/// Seconds. Steps of half a second and more without a unit are samples or milliseconds.
+std::vector<double> in_seconds(const RawColumn& column, const std::string& file) {
+  constexpr double kLongest = 0.5;
+  const double factor = unit_for(column, {}, "s", file, "a time: s or ms").factor;
+  std::vector<double> values;
+  for (const double value : numbers_of(column, file)) values.push_back(factor * value);
+  require_rising(values, file, "the time");
+  const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
+  if (unit_of(column).empty() && step >= kLongest)
+    throw Error(file,
+                "its time has no unit and steps of " + format_number(step) +
+                    ", which are no seconds of an earthquake",
+                "name the column 'time [ms]', or write its seconds");
   return values;
 }
 
@@ -59,14 +106,6 @@ std::vector<double> resampled(const std::vector<double>& way, const std::vector<
     out.push_back(height[k] + share * (height[k + 1] - height[k]) - height[0]);
   }
   return out;
-}
-
-void require_rising(const std::vector<double>& values, const std::string& file, const char* what) {
-  if (values.size() < 3)
-    throw Error(file, "has " + std::to_string(values.size()) + " rows", "three at least");
-  for (std::size_t k = 1; k < values.size(); ++k)
-    if (!(values[k] > values[k - 1]))
-      throw Error(file, std::string(what) + " does not rise in row " + std::to_string(k + 1));
 }
 
 }  // namespace
@@ -92,6 +131,17 @@ RoadProfile load_road(const std::filesystem::path& path, std::string_view distan
     road.tracks.push_back(
         resampled(way, in_metres(table.columns[k + 1], height_unit, file), road.spacing, count));
   }
+
+  // Whoever reads the result sees whether the unit was the right one.
+  double lowest = 0, highest = 0;
+  for (const std::vector<double>& track : road.tracks) {
+    const auto [low, high] = std::ranges::minmax(track);
+    lowest = std::min(lowest, low);
+    highest = std::max(highest, high);
+  }
+  road.description += ", heights over " + format_number(1e3 * (highest - lowest), 3) + " mm";
+  if (height_unit.empty() && unit_of(table.columns[1]).empty())
+    road.description += " (the file names no unit: taken as m)";
   return road;
 }
 
@@ -99,27 +149,36 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
                               double time_scale) {
   const std::string file = path.string();
   const RawTable table = read_tables(path).front();
-  if (table.columns.size() < 2)
+  if (table.columns.size() != 2)
     throw Error(file, "has " + std::to_string(table.columns.size()) + " columns",
-                "time and acceleration");
+                "two: time and the acceleration of one direction");
 
   // Time and acceleration, in SI.
-  const std::vector<double>& time = numbers_of(table.columns[0], file);
-  require_rising(time, file, "the time");
-  const Unit unit = require_unit(unit_stated.empty() ? "m/s^2" : unit_stated, file);
-  if (unit.dimension != require_unit("m/s^2", file).dimension)
-    throw Error(file, "'" + std::string(unit_stated) + "' does not count an acceleration",
-                "m/s^2 or g0");
+  const std::vector<double> time = in_seconds(table.columns[0], file);
+  const RawColumn& shaking = table.columns[1];
+  const double factor = unit_for(shaking, unit_stated, "m/s^2", file,
+                                 "an acceleration: m/s^2, cm/s^2 or g0, there or as unit=g0")
+                            .factor;
   std::vector<double> acceleration;
-  for (const double a : numbers_of(table.columns[1], file)) acceleration.push_back(unit.factor * a);
+  double greatest = 0;
+  for (const double a : numbers_of(shaking, file)) {
+    acceleration.push_back(factor * a);
+    greatest = std::max(greatest, std::abs(acceleration.back()));
+  }
 
   // Equal steps of time, to a tenth of a step.
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (std::size_t k = 1; k < time.size(); ++k)
     if (std::abs(time[k] - time[0] - step * static_cast<double>(k)) > 0.1 * step)
-      throw Error(file, "its time steps are not equal, at row " + std::to_string(k + 1));
+      throw Error(file, "its time steps are not equal, at row " + std::to_string(k + 1),
+                  "one step all along");
 
-  return shaking_ground(path.filename().string() + ", time scale " + format_number(time_scale),
+  // Whoever reads the result sees whether the unit was the right one.
+  const bool silent = unit_stated.empty() && unit_of(shaking).empty();
+  return shaking_ground(path.filename().string() + ", greatest acceleration " +
+                            format_number(greatest, 3) + " m/s^2" +
+                            (silent ? " (the file names no unit: taken as m/s^2)" : "") +
+                            ", time scale " + format_number(time_scale),
                         step * time_scale, std::move(acceleration));
 }
 
