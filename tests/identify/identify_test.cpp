@@ -15,7 +15,7 @@ using namespace dashpot;
 namespace {
 
 /// A small campaign with a tanh damper whose parameters are known.
-Dataset small_campaign() {
+Dataset tanh_campaign() {
   BenchOptions options;
   options.motions = {{0.01, 1}, {0.005, 3}};
   options.drive_levels = {0, 0.5, 1};
@@ -27,7 +27,7 @@ Dataset small_campaign() {
 }  // namespace
 
 TEST_CASE("known parameters lie in their intervals, give or take the odds") {
-  const Dataset data = small_campaign();
+  const Dataset data = tanh_campaign();
   const FitReport report = identify("tanh_kwok", data.records, DriveUnit::Ampere, {});
   CHECK(report.status == FitReport::Status::Converged);
   const LawModel truth = load_parameters("kwok2006");
@@ -49,7 +49,7 @@ TEST_CASE("known parameters lie in their intervals, give or take the odds") {
 }
 
 TEST_CASE("offsets of the records are found") {
-  const Dataset data = small_campaign();
+  const Dataset data = tanh_campaign();
   const FitReport report = identify("tanh_kwok", data.records, DriveUnit::Ampere, {});
   REQUIRE(report.offsets.size() == data.records.size());
   double sum = 0;
@@ -85,7 +85,7 @@ TEST_CASE("the offset of a single record is as uncertain as its noise makes it")
 }
 
 TEST_CASE("the same bits on any number of threads" * doctest::test_suite("long")) {
-  const Dataset data = small_campaign();
+  const Dataset data = tanh_campaign();
   LeaveOut by_condition;
   const auto run = [&](int threads) {
     IdentifyOptions options;
@@ -105,7 +105,7 @@ TEST_CASE("the same bits on any number of threads" * doctest::test_suite("long")
 }
 
 TEST_CASE("the saved model is the ranked one, with its domain and where it comes from") {
-  const Dataset data = small_campaign();
+  const Dataset data = tanh_campaign();
   LeaveOut by_condition;
   const Ranking ranking = rank({"bingham"}, data, by_condition, {});
   const ModelFile file = to_model_file(ranking.models[0], data, "dashpot identify x");
@@ -118,7 +118,7 @@ TEST_CASE("the saved model is the ranked one, with its domain and where it comes
 }
 
 TEST_CASE("a monitor stops a fit") {
-  Dataset data = small_campaign();
+  Dataset data = tanh_campaign();
   for (Record& record : data.records)
     record.conditions = {{"piston_area", 1e-4}, {"gap_area", 2e-5},  {"gap", 1e-3},
                          {"pole_length", 6e-3}, {"viscosity", 0.28}, {"yield_stress", 2e3}};
@@ -134,7 +134,7 @@ TEST_CASE("a monitor stops a fit") {
 TEST_CASE("records that cannot serve are refused in words") {
   CHECK(message_of([] { identify("bingham", {}, DriveUnit::Ampere, {}); }) ==
         "bingham: there is no record to fit it on");
-  Dataset data = small_campaign();
+  Dataset data = tanh_campaign();
   for (Record& record : data.records)
     std::erase_if(record.channels, [](const Channel& c) { return c.name == "displacement"; });
   CHECK(message_of([&] {

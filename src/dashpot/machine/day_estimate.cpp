@@ -14,7 +14,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kDaySettles = 1;          // s, in which the filter settles
-constexpr double kBlock = 1;               // s, of which what is told counts as one
+constexpr double kToldBlock = 1;           // s, of which what is told counts as one
 constexpr std::size_t kTellStart = 500;    // samples that tell where a recording begins
 constexpr double kPlantShare = 0.02;       // of a number of the plant: its size as an unknown
 constexpr double kRoughnessFactor = 1.05;  // likewise
@@ -69,7 +69,7 @@ DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& record
   for (const PlantInputChannel& input : setup.inputs)
     finds_road_ |= input.road && input.road->roughness == 0;
   size_ = watched.wears.size() + plant_.size() + (finds_road_ ? 1 : 0);
-  block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kBlock / recording.sample_time));
+  block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kToldBlock / recording.sample_time));
   settled_ =
       std::max(static_cast<std::size_t>(kDaySettles / recording.sample_time), samples_.count / 20);
 

@@ -104,7 +104,7 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
                                        const LawUnknowns& law, const std::vector<double>& plant,
                                        const ObserverNoise& first, double force)
     : setup_(&setup), rides_(&rides), law_(&law), first_(first) {
-  constexpr double kMostDelay = 20, kOfRate = 0.4, kOfWaves = 0.9;
+  constexpr double kMostDelay = 20, kOfSampleRate = 0.4, kOfWaves = 0.9;
   sample_time_ = rides.front().recording->sample_time;
 
   // Up to where road and plant are what they are taken for, and the damper's force changes no
@@ -114,7 +114,7 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
   for (std::size_t k = 0; k < plant.size(); ++k)
     numbers.emplace_back(setup.unknown[k].name, plant[k]);
   highest_ = std::min(
-      kOfRate / sample_time_,
+      kOfSampleRate / sample_time_,
       kOfModes * natural_frequencies(linear_plant(make_plant(*setup.model, numbers))).back());
   for (const PlantInputChannel& input : setup.inputs) {
     inputs_.push_back(input.place);
@@ -152,7 +152,7 @@ void SpectralLikelihood::seek(std::string name, std::string unit,
 }
 
 void SpectralLikelihood::seek_noise(double force) {
-  constexpr double kLeast = 1e-4, kParted = 0.1, kSlowest = 5, kWidest = 1e3;
+  constexpr double kLeast = 1e-4, kParted = 0.1, kSlowest = 5, kWidestBand = 1e3;
   for (std::size_t e = 0; e < first_.force.size(); ++e) {
     const std::string name = e == 0 ? "quick error of the force" : "slow error of the force";
     const auto deviation = [e](ObserverNoise& n) { return &n.force[e].deviation; };
@@ -166,7 +166,7 @@ void SpectralLikelihood::seek_noise(double force) {
     const auto place = [s](ObserverNoise& n) { return &n.sensors[s]; };
     if (sensor.noise == 0)
       seek("noise of " + sensor.channel, unit_of(sensor.place.quantity), place,
-           first_.sensors[s] / kWidest, first_.sensors[s] * kWidest);
+           first_.sensors[s] / kWidestBand, first_.sensors[s] * kWidestBand);
   }
   const auto roughness = [](ObserverNoise& n) { return &n.roughness; };
   for (const PlantInputChannel& input : setup_->inputs)

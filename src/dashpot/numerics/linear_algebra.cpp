@@ -127,8 +127,9 @@ std::vector<double> inverse(std::span<const double> matrix, std::size_t n) {
 
 std::vector<double> solve(std::span<const double> matrix, std::span<const double> right) {
   const Eigen::PartialPivLU<MatrixXd> factors(as_square(matrix, right.size()));
-  const VectorXd x = factors.solve(as_vector(right));
-  return {x.begin(), x.end()};
+  std::vector<double> x(right.size());
+  VectorXd::Map(x.data(), static_cast<Index>(x.size())) = factors.solve(as_vector(right));
+  return x;
 }
 
 std::vector<std::complex<double>> solve(std::span<const std::complex<double>> matrix,
@@ -195,14 +196,17 @@ SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n,
   const double floor = tolerance * eigen.eigenvalues().cwiseAbs().maxCoeff();
 
   // inverse = sum of v v' / lambda over the directions that are not weak.
-  auto inverse =
-      MatrixXd::Map(result.inverse.data(), eigen.eigenvalues().size(), eigen.eigenvalues().size());
-  for (Index i = 0; i < eigen.eigenvalues().size(); ++i) {
-    const VectorXd direction = eigen.eigenvectors().col(i);
-    if (eigen.eigenvalues()[i] > floor)
-      inverse.noalias() += direction * direction.transpose() / eigen.eigenvalues()[i];
-    else
-      result.weak.emplace_back(direction.begin(), direction.end());
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto column = static_cast<Index>(k);
+    const double value = eigen.eigenvalues()[column];
+    const double* const direction = &eigen.eigenvectors()(0, column);
+    if (!(value > floor)) {
+      result.weak.emplace_back(direction, direction + n);
+      continue;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        result.inverse[i * n + j] += direction[i] * direction[j] / value;
   }
   return result;
 }

@@ -13,7 +13,7 @@ using namespace dashpot;
 
 namespace {
 
-const Dataset& campaign() {
+const Dataset& searched_campaign() {
   static const Dataset data = [] {
     BenchOptions options;
     options.motions = {{0.01, 1}, {0.005, 3}};
@@ -38,13 +38,13 @@ SearchOptions grid(const std::vector<std::string>& axes) {
 
 TEST_CASE("a trial's error is what rank gives the same network on the same folds") {
   const SearchOptions options = grid({"hidden=2,4"});
-  const SearchReport report = search(campaign(), {}, options);
+  const SearchReport report = search(searched_campaign(), {}, options);
   REQUIRE(report.trials.size() == 2);
   CHECK(report.folds.size() == 2);
   CHECK(report.results == 4);
   for (const Trial& trial : report.trials) {
     const Ranking ranking =
-        rank({options.model}, campaign(), {}, options_of(trial.design, options));
+        rank({options.model}, searched_campaign(), {}, options_of(trial.design, options));
     const RankedModel& ranked = ranking.models.front();
     // Sums of the same numbers in another order.
     CHECK_CLOSE(trial.left_out.esr, ranked.left_out.pooled.esr, 1e-12, 0);
@@ -64,14 +64,15 @@ TEST_CASE("the table is the same bit for bit with any number of threads and from
   options.method = SearchMethod::Halving;
   options.trials = 10;
   options.fit.threads = 1;
-  const std::string one = csv_search(search(campaign(), {}, options));
+  const std::string one = csv_search(search(searched_campaign(), {}, options));
   options.fit.threads = 3;
-  TrialStore store(folder.path() / "search.sqlite", describe_search(campaign(), {}, options, "1"));
-  const SearchReport first = search(campaign(), {}, options, &store);
+  TrialStore store(folder.path() / "search.sqlite",
+                   describe_search(searched_campaign(), {}, options, "1"));
+  const SearchReport first = search(searched_campaign(), {}, options, &store);
   CHECK(csv_search(first) == one);
   CHECK(first.kept == 0);
   CHECK(store.size() == first.results);
-  const SearchReport again = search(campaign(), {}, options, &store);
+  const SearchReport again = search(searched_campaign(), {}, options, &store);
   CHECK(csv_search(again) == one);
   CHECK(again.kept == first.results);
 }
@@ -79,19 +80,19 @@ TEST_CASE("the table is the same bit for bit with any number of threads and from
 TEST_CASE("an interruption keeps what is finished, and the search goes on from there") {
   const TemporaryFolder folder;
   const SearchOptions options = grid({"hidden=1,2,3,4"});
-  const std::string whole = csv_search(search(campaign(), {}, options));
-  const NamedTexts identity = describe_search(campaign(), {}, options, "1");
+  const std::string whole = csv_search(search(searched_campaign(), {}, options));
+  const NamedTexts identity = describe_search(searched_campaign(), {}, options, "1");
   TrialStore store(folder.path() / "search.sqlite", identity);
   std::atomic<bool> stop = false;
   SearchOptions stopped = options;
   stopped.fit.monitor.stop = &stop;
   stopped.fit.threads = 1;
   int ended = 0;
-  CHECK_THROWS_AS(search(campaign(), {}, stopped, &store,
+  CHECK_THROWS_AS(search(searched_campaign(), {}, stopped, &store,
                          [&](const Trial&, const SearchReport&) { stop = ++ended == 2; }),
                   Interrupted);
   CHECK(store.size() == 4);  // two trials of two folds
-  const SearchReport report = search(campaign(), {}, options, &store);
+  const SearchReport report = search(searched_campaign(), {}, options, &store);
   CHECK(report.kept == 4);
   CHECK(csv_search(report) == whole);
 }
@@ -101,19 +102,19 @@ TEST_CASE("more trials go on with those that are there; what changes results is 
   SearchOptions options = grid({"hidden=1:30"});
   options.method = SearchMethod::Random;
   options.trials = 3;
-  const NamedTexts three = describe_search(campaign(), {}, options, "1");
+  const NamedTexts three = describe_search(searched_campaign(), {}, options, "1");
   const TemporaryFolder folder;
   TrialStore store(folder.path() / "search.sqlite", three);
-  search(campaign(), {}, options, &store);
+  search(searched_campaign(), {}, options, &store);
   options.trials = 5;
   options.fit.threads = 2;
-  CHECK(describe_search(campaign(), {}, options, "1") == three);
-  CHECK(search(campaign(), {}, options, &store).kept == 6);
+  CHECK(describe_search(searched_campaign(), {}, options, "1") == three);
+  CHECK(search(searched_campaign(), {}, options, &store).kept == 6);
 
   const auto differs = [&](auto change) {
     SearchOptions other = options;
     change(other);
-    return describe_search(campaign(), {}, other, "1") != three;
+    return describe_search(searched_campaign(), {}, other, "1") != three;
   };
   CHECK(differs([](SearchOptions& o) { o.fit.seed = 2; }));
   CHECK(differs([](SearchOptions& o) { o.fit.starts = 2; }));
@@ -121,9 +122,9 @@ TEST_CASE("more trials go on with those that are there; what changes results is 
   CHECK(differs([](SearchOptions& o) { o.space.fixed.l2 = 1e-3; }));
   CHECK(differs([](SearchOptions& o) { o.space.axes[0].high = 31; }));
   CHECK(differs([](SearchOptions& o) { o.method = SearchMethod::Grid; }));
-  CHECK(describe_search(campaign(), {}, options, "2") != three);
-  CHECK(describe_search(campaign(), {.by = LeaveOut::By::Record}, options, "1") != three);
-  Dataset changed = campaign();
+  CHECK(describe_search(searched_campaign(), {}, options, "2") != three);
+  CHECK(describe_search(searched_campaign(), {.by = LeaveOut::By::Record}, options, "1") != three);
+  Dataset changed = searched_campaign();
   changed.records[0].channels[0].samples[3] += 1e-9;
   CHECK(describe_search(changed, {}, options, "1") != three);
 }
@@ -147,7 +148,7 @@ TEST_CASE("halving: rounds of a third each, of which the best go on; finalists s
   CHECK(message_of([&] { rungs(8); }).starts_with("--method: 8 trials are too few"));
 
   options.trials = 9;
-  const SearchReport report = search(campaign(), {}, options);
+  const SearchReport report = search(searched_campaign(), {}, options);
   REQUIRE(report.trials.size() == 9);
   CHECK(report.results == 24);  // 9 and 3 trials, two folds each
   double worst_finalist = 0;
@@ -199,7 +200,7 @@ TEST_CASE(
 TEST_CASE("no finalist on the front is beaten with as few parameters" *
           doctest::test_suite("long")) {
   const SearchReport report =
-      search(campaign(), {}, grid({"hidden=1,2,3,4,6", "activation=tanh,relu"}));
+      search(searched_campaign(), {}, grid({"hidden=1,2,3,4,6", "activation=tanh,relu"}));
   for (const Trial& a : report.trials) {
     bool beaten = false;
     for (const Trial& b : report.trials)
@@ -209,7 +210,7 @@ TEST_CASE("no finalist on the front is beaten with as few parameters" *
 }
 
 TEST_CASE("a fit that cannot be is a failed trial, not the end of the search") {
-  Dataset data = campaign();
+  Dataset data = searched_campaign();
   for (Record& record : data.records)
     std::erase_if(record.channels, [](const Channel& c) { return c.name == "displacement"; });
   SearchOptions options = grid({"hidden=2,3"});

@@ -13,7 +13,7 @@
 namespace dashpot {
 namespace {
 
-using Kind = CType::Kind;
+using TypeKind = CType::Kind;
 using Node = CExpr::Kind;
 
 /// How strongly an operator binds in JavaScript, from a comma to a name: the order of C.
@@ -23,7 +23,7 @@ enum class Bind { Comma, Assign, Choose, Or, And, Equal, Less, Sum, Product, Una
 struct Js {
   std::string text;
   Bind bind = Bind::Atom;
-  CType type = {.kind = Kind::Real};
+  CType type = {.kind = TypeKind::Real};
   bool is_truth = false;
 };
 
@@ -86,8 +86,8 @@ CType element_of(CType array) {
 }
 
 bool is_number(const CType& type) { return type.pointers == 0 && !type.is_array; }
-bool is_real(const CType& type) { return is_number(type) && type.kind == Kind::Real; }
-bool is_whole(const CType& type) { return is_number(type) && type.kind == Kind::Int; }
+bool is_real(const CType& type) { return is_number(type) && type.kind == TypeKind::Real; }
+bool is_whole(const CType& type) { return is_number(type) && type.kind == TypeKind::Int; }
 
 std::string in_brackets(const Js& js, Bind least) {
   return js.bind < least ? "(" + js.text + ")" : js.text;
@@ -196,7 +196,7 @@ class Translator {
   // Tables.
 
   bool is_constant(const CDeclaration& one) const {
-    return is_number(one.type) && one.type.kind != Kind::Struct;
+    return is_number(one.type) && one.type.kind != TypeKind::Struct;
   }
 
   std::string written_tables() {
@@ -501,7 +501,7 @@ class Translator {
       case Node::Number:
         return {format_exact(expr.number),
                 Bind::Atom,
-                {.kind = expr.is_integer ? Kind::Int : Kind::Real}};
+                {.kind = expr.is_integer ? TypeKind::Int : TypeKind::Real}};
       case Node::Name: {
         const Variable& variable = find(expr.text);
         if (!variable.in_memory) {
@@ -535,14 +535,14 @@ class Translator {
   Js number(const CExpr& expr) { return as_number(evaluate(expr)); }
   static Js as_number(const Js& js) {
     if (!js.is_truth) return js;
-    return {"+" + in_brackets(js, Bind::Unary), Bind::Unary, {.kind = Kind::Int}};
+    return {"+" + in_brackets(js, Bind::Unary), Bind::Unary, {.kind = TypeKind::Int}};
   }
 
   /// Whether a value holds: in C what is no number does, in JavaScript it does not.
   Js truth(const CExpr& expr) {
     const Js js = evaluate(expr);
     if (js.is_truth || !is_real(js.type)) return js;
-    return {in_brackets(js, Bind::Less) + " !== 0", Bind::Equal, {.kind = Kind::Int}, true};
+    return {in_brackets(js, Bind::Less) + " !== 0", Bind::Equal, {.kind = TypeKind::Int}, true};
   }
 
   static Js converted(const Js& from, const CType& type) {
@@ -563,7 +563,7 @@ class Translator {
     if (expr.text == "*") return read(place(expr));
     if (expr.text == "!") {
       const Js js = truth(part);
-      return {"!" + in_brackets(js, Bind::Unary), Bind::Unary, {.kind = Kind::Int}, true};
+      return {"!" + in_brackets(js, Bind::Unary), Bind::Unary, {.kind = TypeKind::Int}, true};
     }
     if (expr.text == "-") {
       const Js js = number(part);
@@ -624,7 +624,7 @@ class Translator {
         return js.is_truth ? js
                            : Js{in_brackets(js, Bind::Less) + " !== 0", Bind::Equal, js.type, true};
       };
-      return joined(by, side(0), side(1), {.kind = Kind::Int});
+      return joined(by, side(0), side(1), {.kind = TypeKind::Int});
     }
     return arithmetic(by, number(expr.parts[0]), number(expr.parts[1]));
   }
@@ -640,11 +640,11 @@ class Translator {
       const CType type = moves_a ? a.type : b.type;
       return joined(by, a, b, type);
     }
-    if (by.is_truth) return joined(by, a, b, {.kind = Kind::Int});
+    if (by.is_truth) return joined(by, a, b, {.kind = TypeKind::Int});
 
     // Whole numbers stay whole.
     const bool whole = is_whole(a.type) && is_whole(b.type);
-    Js out = joined(by, a, b, {.kind = whole ? Kind::Int : Kind::Real});
+    Js out = joined(by, a, b, {.kind = whole ? TypeKind::Int : TypeKind::Real});
     if (whole && by.mark == "/") return {"Math.trunc(" + out.text + ")", Bind::Atom, out.type};
     return out;
   }
@@ -718,20 +718,20 @@ class Translator {
     const bool is_truth = found->in_js.starts_with("Number.");
     return {std::string(found->in_js) + "(" + list + ")",
             Bind::Atom,
-            {.kind = is_truth ? Kind::Int : Kind::Real},
+            {.kind = is_truth ? TypeKind::Int : TypeKind::Real},
             is_truth};
   }
 
   Js cast(const CExpr& expr) {
     const Js value = number(expr.parts[0]);
-    if (is_number(expr.type) != is_number(value.type) && expr.type.kind != Kind::Void)
+    if (is_number(expr.type) != is_number(value.type) && expr.type.kind != TypeKind::Void)
       fail("makes a number of a pointer, or the reverse", "either");
     return converted(value, expr.type);
   }
 
   /// An expression for what it does alone; "" where it does nothing.
   std::string effect(const CExpr& expr) {
-    if (expr.kind == Node::Cast && expr.type.kind == Kind::Void && expr.type.pointers == 0)
+    if (expr.kind == Node::Cast && expr.type.kind == TypeKind::Void && expr.type.pointers == 0)
       return effect(expr.parts[0]);
     if (expr.kind == Node::Binary && expr.text == ",") {
       const std::string first = effect(expr.parts[0]), second = effect(expr.parts[1]);

@@ -21,7 +21,7 @@ constexpr double kBuildSpread = 0.08, kRecordError = 0.05;
 constexpr std::array kAllRidges{1e-4, 1e-3, 1e-2, 1e-1}, kYieldRidges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr double kOffsetRidge = 1e-5;
 // Of the first solution, and of the last one, which begins where that has ended.
-constexpr int kIterations = 30, kLastIterations = 10;
+constexpr int kPhysicsIterations = 30, kLastIterations = 10;
 constexpr double kStep = 1e-5;  // of the differences
 
 struct Ridges {
@@ -497,7 +497,7 @@ FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, in
   // Fit with ridges from the middle, then with those that leaving designs out would choose there.
   const PhysicsProblem problem(records, threads, monitor);
   Ridges ridges;
-  LeastSquaresReport report = problem.solve_with(ridges, problem.start(), kIterations);
+  LeastSquaresReport report = problem.solve_with(ridges, problem.start(), kPhysicsIterations);
   const bool several = problem.groups().designs > 1;
   if (several) {
     ridges = best_ridges(LeftOutDesigns(problem, report.x));

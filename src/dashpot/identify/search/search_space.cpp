@@ -16,7 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kMostDesigns = 100'000;
-constexpr int kDigits = 3;  // of what is drawn: more would only make tables wide
+constexpr int kDrawnDigits = 3;  // of what is drawn: more would only make tables wide
 
 /// A setting's name and its text.
 using Setting = std::pair<std::string, std::string>;
@@ -103,7 +103,7 @@ double at(const SearchAxis& axis, double place) {
 
 std::string text_of(const SearchAxis& axis, double value) {
   value = std::clamp(axis.whole ? std::round(value) : value, axis.low, axis.high);
-  return axis.whole ? format_exact(value) : format_number(value, kDigits);
+  return axis.whole ? format_exact(value) : format_number(value, kDrawnDigits);
 }
 
 std::vector<std::string> grid_values(const SearchAxis& axis, std::size_t steps) {

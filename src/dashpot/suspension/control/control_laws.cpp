@@ -16,21 +16,21 @@ extern const ControlLaw kAdd, kClippedLqr, kClippedOptimal, kConstant, kFrequenc
 
 namespace {
 
-constexpr std::array kLaws{&kAdd,
-                           &kClippedLqr,
-                           &kClippedOptimal,
-                           &kConstant,
-                           &kFrequencyEstimation,
-                           &kFuzzy,
-                           &kGroundhook,
-                           &kHybrid,
-                           &kMix1,
-                           &kPdd,
-                           &kShAdd,
-                           &kSkyhook,
-                           &kSkyhookLinear,
-                           &kSkyhookModified,
-                           &kSlidingMode};
+constexpr std::array kControlLaws{&kAdd,
+                                  &kClippedLqr,
+                                  &kClippedOptimal,
+                                  &kConstant,
+                                  &kFrequencyEstimation,
+                                  &kFuzzy,
+                                  &kGroundhook,
+                                  &kHybrid,
+                                  &kMix1,
+                                  &kPdd,
+                                  &kShAdd,
+                                  &kSkyhook,
+                                  &kSkyhookLinear,
+                                  &kSkyhookModified,
+                                  &kSlidingMode};
 
 constexpr std::string_view kSelector = "selector(";
 
@@ -118,11 +118,11 @@ double strut_stiffness(const Plant& plant) {
   return stiffness;
 }
 
-std::span<const ControlLaw* const> control_laws() { return kLaws; }
+std::span<const ControlLaw* const> control_laws() { return kControlLaws; }
 
 const ControlLaw& find_control_law(std::string_view name, const std::string& where) {
   std::vector<std::string> known;
-  for (const ControlLaw* law : kLaws) {
+  for (const ControlLaw* law : kControlLaws) {
     if (law->name == name) return *law;
     known.emplace_back(law->name);
   }

@@ -13,15 +13,15 @@ std::vector<FreeRunRecord> measured(const HysteresisNetwork& truth, std::size_t 
 }
 
 /// Other weights and rates than the truth's.
-HysteresisNetwork start() {
+HysteresisNetwork start_bank() {
   HysteresisNetwork model = example_hysteresis_network(9);
   model.bank.set_rates(std::vector<double>{90, 700, 80, 30});
   return model;
 }
 
-void check_gradient(const HysteresisNetworkTrainOptions& options, double tolerance = 1e-6) {
+void check_bank_gradient(const HysteresisNetworkTrainOptions& options, double tolerance = 1e-6) {
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
-  const HysteresisNetwork model = start();
+  const HysteresisNetwork model = start_bank();
   const FreeRunCost at = hysteresis_network_cost(model, all_of(records), options);
   // Moves of rates are measured from the model that a training starts from, so their penalty has no
   // slope here.
@@ -54,7 +54,7 @@ void check_gradient(const HysteresisNetworkTrainOptions& options, double toleran
 }  // namespace
 
 TEST_CASE("the gradient is that of the cost, rates, offsets and decays included") {
-  check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
+  check_bank_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
 }
 
 TEST_CASE("the gradient is that of the cost with the penalty of energy that is fed in") {
@@ -65,9 +65,9 @@ TEST_CASE("the gradient is that of the cost with the penalty of energy that is f
   const HysteresisNetworkTrainOptions free{.weight_decay = 0.01},
       paid{.weight_decay = 0.01, .penalty = &penalty};
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
-  CHECK(hysteresis_network_cost(start(), all_of(records), paid).cost >
-        1.1 * hysteresis_network_cost(start(), all_of(records), free).cost);
-  check_gradient(paid, 1e-4);  // shares have kinks
+  CHECK(hysteresis_network_cost(start_bank(), all_of(records), paid).cost >
+        1.1 * hysteresis_network_cost(start_bank(), all_of(records), free).cost);
+  check_bank_gradient(paid, 1e-4);  // shares have kinks
 }
 
 TEST_CASE(
@@ -75,7 +75,7 @@ TEST_CASE(
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 400);
   const HysteresisNetworkTrainOptions options{.max_iterations = 80, .weight_decay = 1e-7};
   const std::vector<const FreeRunRecord*> seen{&records[0], &records[2]};
-  HysteresisNetwork found = start(), again = start();
+  HysteresisNetwork found = start_bank(), again = start_bank();
   const FreeRunTrainReport report = train(found, seen, options);
   train(again, seen, options);
   CHECK(found.network.neurons == again.network.neurons);
@@ -84,7 +84,7 @@ TEST_CASE(
   const auto left = [&](const HysteresisNetwork& model) {
     return squares_left(model, records[1], true);
   };
-  HysteresisNetwork none = start();
+  HysteresisNetwork none = start_bank();
   none.network.gates.assign(none.network.gates.size(), 0.0);
   CHECK(std::sqrt(left(found) / left(none)) < 0.02);
   CHECK(report.rmse < 15);  // N, of some 1000
@@ -93,10 +93,10 @@ TEST_CASE(
 
 TEST_CASE("offsets of records stay out of the model, their mean goes in") {
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 200);
-  HysteresisNetwork found = start();
+  HysteresisNetwork found = start_bank();
   const FreeRunTrainReport free =
       train(found, all_of(records), {.max_iterations = 60, .weight_decay = 1e-7});
-  HysteresisNetwork held = start();
+  HysteresisNetwork held = start_bank();
   const FreeRunTrainReport bound =
       train(held, all_of(records), {.max_iterations = 60, .weight_decay = 1e-7, .offsets = false});
   CHECK(free.rmse < bound.rmse / 2);
@@ -104,7 +104,7 @@ TEST_CASE("offsets of records stay out of the model, their mean goes in") {
 
 TEST_CASE("signals are held within those of the records") {
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 200);
-  HysteresisNetwork found = start();
+  HysteresisNetwork found = start_bank();
   train(found, all_of(records), {.max_iterations = 3});
   const GatedNetwork::Signal &velocity = found.network.signals.front(),
                              &current = found.network.signals.back();

@@ -13,7 +13,7 @@ std::vector<FreeRunRecord> measured(std::size_t samples) {
 }
 
 /// Other rates and weights than the truth's, no feedback yet.
-StateSpaceNetwork start() {
+StateSpaceNetwork start_cell() {
   StateSpaceNetwork model = example_state_space(9);
   model.cell.path_rates = {20, 150};
   model.cell.initialise(3, 9);
@@ -21,7 +21,7 @@ StateSpaceNetwork start() {
   return model;
 }
 
-void check_gradient(const StateSpaceTrainOptions& options, double tolerance = 1e-6) {
+void check_cell_gradient(const StateSpaceTrainOptions& options, double tolerance = 1e-6) {
   const std::vector<FreeRunRecord> records = measured(90);
   const StateSpaceNetwork model = example_state_space(4);
   const std::size_t count = state_space_cost(model, all_of(records), options).gradient.size();
@@ -46,11 +46,12 @@ void check_gradient(const StateSpaceTrainOptions& options, double tolerance = 1e
 }  // namespace
 
 TEST_CASE("the gradient is that of the cost over whole records, rest included") {
-  check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
+  check_cell_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
 }
 
 TEST_CASE("the gradient is that of the cost over windows, encoder included") {
-  check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .window = 30});
+  check_cell_gradient(
+      {.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .window = 30});
 }
 
 TEST_CASE("the gradient is that of the cost with the penalty of energy that is fed in") {
@@ -61,14 +62,14 @@ TEST_CASE("the gradient is that of the cost with the penalty of energy that is f
   const std::vector<FreeRunRecord> records = measured(90);
   CHECK(state_space_cost(example_state_space(4), all_of(records), {.penalty = &penalty}).cost >
         1.1 * state_space_cost(example_state_space(4), all_of(records), {}).cost);
-  check_gradient({.weight_decay = 0.01, .penalty = &penalty}, 1e-4);  // shares have kinks
+  check_cell_gradient({.weight_decay = 0.01, .penalty = &penalty}, 1e-4);  // shares have kinks
 }
 
 TEST_CASE("windows, then whole records: a state space predicts motions it has not seen") {
   const std::vector<FreeRunRecord> records = measured(400);
   const std::vector<const FreeRunRecord*> seen{&records[0], &records[2]};
   const auto trained = [&] {
-    StateSpaceNetwork model = start();
+    StateSpaceNetwork model = start_cell();
     train(model, seen, {.max_iterations = 15, .weight_decay = 1e-6, .window = 50});
     const FreeRunTrainReport report =
         train(model, seen, {.max_iterations = 40, .weight_decay = 1e-7});
@@ -78,7 +79,7 @@ TEST_CASE("windows, then whole records: a state space predicts motions it has no
   const StateSpaceNetwork found = trained(), again = trained();
   CHECK(found.cell.parameters() == again.cell.parameters());
   CHECK(found.network.gates == again.network.gates);
-  StateSpaceNetwork none = start();
+  StateSpaceNetwork none = start_cell();
   none.network.gates.assign(none.network.gates.size(), 0.0);
   const auto left = [&](const StateSpaceNetwork& model) {
     return squares_left(model, records[1], true);
@@ -89,7 +90,7 @@ TEST_CASE("windows, then whole records: a state space predicts motions it has no
 
 TEST_CASE("records too short for a window serve whole") {
   const std::vector<FreeRunRecord> records = measured(15);
-  StateSpaceNetwork model = start();
+  StateSpaceNetwork model = start_cell();
   CHECK(train(model, all_of(records), {.max_iterations = 2, .window = 400}).rmse > 0);
   std::vector<FreeRunRecord> tiny = measured(12);
   for (FreeRunRecord& record : tiny) record.first = 0;

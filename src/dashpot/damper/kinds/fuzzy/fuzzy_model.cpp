@@ -9,8 +9,8 @@
 namespace dashpot {
 namespace {
 
-void require_count(std::size_t count, std::size_t most, const std::string& what,
-                   const std::string& where) {
+void require_at_most(std::size_t count, std::size_t most, const std::string& what,
+                     const std::string& where) {
   if (count < 1 || count > most)
     throw Error(where, "has " + std::to_string(count) + " " + what, "1 to " + std::to_string(most));
 }
@@ -38,7 +38,7 @@ void require_memberships(const Sugeno& sugeno, const std::string& where) {
 
 void require_rules(const Sugeno& sugeno, const std::string& where) {
   for (const std::vector<std::size_t>& rule : sugeno.rules) {
-    require_count(rule.size(), Sugeno::kMaxTerms, "memberships in a rule", where);
+    require_at_most(rule.size(), Sugeno::kMaxTerms, "memberships in a rule", where);
     for (const std::size_t m : rule)
       if (m >= sugeno.memberships.size())
         throw Error(
@@ -52,9 +52,9 @@ void require_rules(const Sugeno& sugeno, const std::string& where) {
 }
 
 void require_sound(const Sugeno& sugeno, std::size_t inputs, const std::string& where) {
-  require_count(inputs, Sugeno::kMaxInputs, "inputs", where);
-  require_count(sugeno.memberships.size(), Sugeno::kMaxMemberships, "memberships", where);
-  require_count(sugeno.rules.size(), Sugeno::kMaxRules, "rules", where);
+  require_at_most(inputs, Sugeno::kMaxInputs, "inputs", where);
+  require_at_most(sugeno.memberships.size(), Sugeno::kMaxMemberships, "memberships", where);
+  require_at_most(sugeno.rules.size(), Sugeno::kMaxRules, "rules", where);
   if (sugeno.inputs.size() != inputs)
     throw Error(where, "the scales of the inputs are not one per input");
   require_inputs(sugeno, where);

@@ -43,7 +43,7 @@ std::size_t read_index(const Value& value) {
   return static_cast<std::size_t>(index);
 }
 
-Value to_json(const Sugeno::Input& input, const std::string& name) {
+Value input_to_json(const Sugeno::Input& input, const std::string& name) {
   return Value::object({{"name", name},
                         {"mean", input.mean},
                         {"scale", input.scale},
@@ -60,7 +60,7 @@ Sugeno::Input read_input(const Value& value, std::vector<std::string>& names) {
   return input;
 }
 
-Value to_json(const Membership& m) {
+Value membership_to_json(const Membership& m) {
   Value out =
       Value::object({{"shape", name_of(m.shape)}, {"input", m.input}, {"centre", m.centre}});
   if (m.shape != Shape::Sigmoid) out.add("width", m.width);
@@ -85,8 +85,8 @@ Membership read_membership(const Value& value) {
 Value FuzzyModel::to_json() const {
   Value inputs = Value::array(), memberships = Value::array(), rules = Value::array();
   for (std::size_t k = 0; k < sugeno_.inputs.size(); ++k)
-    inputs.push_back(dashpot::to_json(sugeno_.inputs[k], inputs_.names()[k]));
-  for (const Membership& m : sugeno_.memberships) memberships.push_back(dashpot::to_json(m));
+    inputs.push_back(input_to_json(sugeno_.inputs[k], inputs_.names()[k]));
+  for (const Membership& m : sugeno_.memberships) memberships.push_back(membership_to_json(m));
   for (const std::vector<std::size_t>& rule : sugeno_.rules)
     rules.push_back(Value::array(std::vector<double>(rule.begin(), rule.end())));
 

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kPerMembership = 3;  // centre, ln width, ln |slope|
-constexpr Index kBlock = 256;              // samples of which a Gram matrix is made at a time
+constexpr Index kGramBlock = 256;          // samples of which a Gram matrix is made at a time
 
 VectorXd unknowns_of(const Sugeno& model) {
   VectorXd x(static_cast<Index>(kPerMembership * model.memberships.size()));
@@ -170,13 +170,13 @@ class ReducedProblem {
   Gram sum_up(Index columns, FillRow fill) {
     Gram gram(columns);
     MatrixXd block(columns,
-                   kBlock);  // a sample per column, so that a sample is filled in one place
+                   kGramBlock);  // a sample per column, so that a sample is filled in one place
 
     // Sum up block by block, so that one product serves many samples.
     std::size_t sample = 0;
     for (const Group& group : groups_) {
       for (std::size_t left = group.size; left > 0;) {
-        const Index taken = std::min<Index>(kBlock, static_cast<Index>(left));
+        const Index taken = std::min<Index>(kGramBlock, static_cast<Index>(left));
         for (Index k = 0; k < taken; ++k) fill(sample++, block.col(k));
         gram.add(block.leftCols(taken).transpose());
         left -= static_cast<std::size_t>(taken);

@@ -117,11 +117,12 @@ std::size_t LawModel::run(std::span<const DamperInput> inputs, Steps steps, std:
   if (to.spread) std::fill_n(to.spread, inputs.size(), 0);
 
   // Take samples of one current together, as their parameters are the same.
-  constexpr std::size_t kBlock = 256;  // of forces that the cache still holds when they are checked
+  constexpr std::size_t kAtATime =
+      256;  // of forces that the cache still holds when they are checked
   Params p;
   for (std::size_t first = 0, end = 0; first < inputs.size(); first = end) {
     const double current = inputs[first].current;
-    const std::size_t last = std::min(first + kBlock, inputs.size());
+    const std::size_t last = std::min(first + kAtATime, inputs.size());
     for (end = first + 1; end < last && (!follows_current_ || inputs[end].current == current);)
       ++end;
     parameters_at(current, p.data());

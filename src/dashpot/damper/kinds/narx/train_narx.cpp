@@ -15,9 +15,9 @@ namespace dashpot {
 namespace {
 
 /// The network on its own forces, window by window, standardised.
-class FreeRunCost {
+class NarxFreeRunCost {
  public:
-  FreeRunCost(const Mlp& mlp, const NarxSamples& samples, const NarxTrainOptions& options)
+  NarxFreeRunCost(const Mlp& mlp, const NarxSamples& samples, const NarxTrainOptions& options)
       : samples_(samples),
         options_(options),
         network_(mlp, 1, simd_levels().back()),
@@ -227,7 +227,7 @@ class Problem {
     for (std::size_t k = 0; k < cost_.residuals(); ++k) values[k] *= share_;
   }
 
-  FreeRunCost cost_;
+  NarxFreeRunCost cost_;
   double share_, price_;
 };
 

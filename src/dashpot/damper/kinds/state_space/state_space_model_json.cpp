@@ -14,7 +14,7 @@ void read_range(ObjectReader& reader, const char* key, double& low, double& high
   high = ends[1];
 }
 
-Value to_json(const StateSpaceCell& cell) {
+Value cell_to_json(const StateSpaceCell& cell) {
   return Value::object({{"path_rates", Value::array(cell.path_rates)},
                         {"lag_rates", Value::array(cell.lag_rates)},
                         {"current_rates", Value::array(cell.current_rates)},
@@ -60,7 +60,7 @@ StateSpaceNetwork read_member(const Value& value) {
 }  // namespace
 
 Value StateSpaceNetwork::to_json() const {
-  Value out = Value::object({{"cell", dashpot::to_json(cell)}});
+  Value out = Value::object({{"cell", cell_to_json(cell)}});
   add_network(out, network);
   return out;
 }
