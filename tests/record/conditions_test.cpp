@@ -1,5 +1,8 @@
 #include "dashpot/record/conditions.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "support.h"
 
 using namespace dashpot;
@@ -17,4 +20,35 @@ TEST_CASE("a level in a name whose digits no number holds is in doubt") {
   CHECK(doubt_of("run_" + zeros + "5A").find("may be 5 A or 0 A") != std::string::npos);
   CHECK(doubt_of("run_0_" + zeros + "5mA").find("or 5 mA") != std::string::npos);
   CHECK(doubt_of("run_0,5A").empty());
+}
+
+TEST_CASE("a bare number in a name that is the drive level is no part of the motion") {
+  const auto moved = [](double amplitude, double level) {
+    Record record;
+    Channel x{.name = "displacement", .unit = "m", .origin = "column x"};
+    for (int k = 0; k < 500; ++k) {
+      record.time.push_back(0.002 * k);
+      x.samples.push_back(amplitude * std::sin(8 * std::numbers::pi * record.time.back()));
+    }
+    record.channels = {std::move(x)};
+    record.drive_level = level;
+    return record;
+  };
+  const auto conditions = [](std::vector<Record> records, const std::vector<std::string>& names) {
+    infer_conditions(records, names);
+    std::vector<std::string> found;
+    for (const Record& record : records) found.push_back(record.condition);
+    return found;
+  };
+  using Names = std::vector<std::string>;
+
+  // At the end and within.
+  CHECK(conditions({moved(0.004, 0), moved(0.004, 0.5), moved(0.008, 0), moved(0.008, 0.5)},
+                   {"test_4mm_4Hz_0", "test_4mm_4Hz_0.5", "0-8mm-4Hz", "0.5-8mm-4Hz"}) ==
+        Names{"test_4mm_4Hz", "test_4mm_4Hz", "8mm-4Hz", "8mm-4Hz"});
+
+  // A number that tells motions apart, and a single record, keep it.
+  const Names apart{"sine_4_4Hz", "sine_8_4Hz"};
+  CHECK(conditions({moved(0.004, 4), moved(0.008, 8)}, apart) == apart);
+  CHECK(conditions({moved(0.004, 0.5)}, {"test_4mm_0.5"}) == Names{"test_4mm_0.5"});
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "dashpot/base/text.h"
 
@@ -57,6 +58,11 @@ bool close(double a, double b) {
   return std::abs(a - b) <= 0.05 * std::max(std::abs(a), std::abs(b));
 }
 
+bool alike(const Motion& one, const Motion& other) {
+  return one.velocity == other.velocity && close(one.amplitude, other.amplitude) &&
+         close(one.frequency, other.frequency);
+}
+
 std::string describe_motion(const Motion& motion) {
   const std::string text =
       format_number(motion.amplitude * 1e3, 2) + (motion.velocity ? " mm/s" : " mm");
@@ -67,6 +73,44 @@ std::string describe_motion(const Motion& motion) {
 bool states_motion(const std::string& name) {
   const std::string text = lower(name);
   return text.find("hz") != std::string::npos || text.find("mm") != std::string::npos;
+}
+
+/// The last word of a name that is this number and nothing else taken out: of "test_4mm_4Hz_0.5"
+/// 0.5. The name itself where there is none.
+std::string without_number(const std::string& name, double number) {
+  constexpr std::string_view kBetween = "_- ";
+  for (std::size_t end = name.size(); end > 0;) {
+    const std::size_t mark = name.find_last_of(kBetween, end - 1),
+                      begin = mark == std::string::npos ? 0 : mark + 1;
+    const std::optional<double> word = parse_number(name.substr(begin, end - begin));
+    if (word && std::abs(*word - number) <= 1e-9)
+      return strip_separators(strip_separators(name.substr(0, begin)) + name.substr(end));
+    end = mark == std::string::npos ? 0 : mark;
+  }
+  return name;
+}
+
+/// The names without a number that is nothing but the record's drive level, which a channel shows:
+/// where records that move alike have the same name but for such numbers.
+std::vector<std::string> without_bare_levels(const std::vector<Record>& records,
+                                             const std::vector<std::string>& names) {
+  std::vector<std::string> shorter = names;
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    if (!records[k].drive_level || !states_motion(names[k])) continue;
+    shorter[k] = without_number(names[k], *records[k].drive_level);
+    if (shorter[k] != names[k]) groups[shorter[k]].push_back(k);
+  }
+
+  // A number that tells motions apart is no level, whatever it equals.
+  for (const auto& [name, group] : groups) {
+    const Motion motion = motion_of(records[group.front()]);
+    const bool same = std::ranges::all_of(
+        group, [&](std::size_t k) { return alike(motion, motion_of(records[k])); });
+    if (group.size() < 2 || !same)
+      for (const std::size_t k : group) shorter[k] = names[k];
+  }
+  return shorter;
 }
 
 /// A drive level in a name, and where it stands there.
@@ -251,23 +295,21 @@ std::optional<KnownLevel> level_of_folder(std::string_view name) {
 }
 
 void infer_conditions(std::vector<Record>& records, const std::vector<std::string>& name_rests) {
+  const std::vector<std::string> stated = without_bare_levels(records, name_rests);
   std::vector<std::pair<Motion, std::string>> known;
   for (std::size_t k = 0; k < records.size(); ++k) {
     if (!records[k].condition.empty()) continue;
 
     // The name may state the motion itself.
-    if (states_motion(name_rests[k])) {
-      records[k].condition = name_rests[k];
+    if (states_motion(stated[k])) {
+      records[k].condition = stated[k];
       continue;
     }
 
     // Else records that move alike share the words of the first.
     const Motion motion = motion_of(records[k]);
-    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& other) {
-      return other.first.velocity == motion.velocity &&
-             close(other.first.amplitude, motion.amplitude) &&
-             close(other.first.frequency, motion.frequency);
-    });
+    const auto same = std::find_if(known.begin(), known.end(),
+                                   [&](const auto& other) { return alike(other.first, motion); });
     records[k].condition = same == known.end() ? describe_motion(motion) : same->second;
     if (same == known.end()) known.emplace_back(motion, records[k].condition);
   }
