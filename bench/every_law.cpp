@@ -1,10 +1,11 @@
 // simulate() beside general integrators with every law that ships, at equal error;
 // docs/performance.md prints it.
 //
-//   every_law [--rounds N] [--odeint] [--curves] [NAME ...]
+//   every_law [--rounds N] [--odeint | --fixed] [--curves] [NAME ...]
 //
 // NAME: a law, at the example of its table, or a published set; all laws and sets where there is
-// none. --odeint: beside odeint alone, in a fifth of the time.
+// none. --odeint: beside odeint alone, in a seventh of the time. --fixed: beside equal steps, whose
+// error nobody watches.
 #include <algorithm>
 #include <cstring>
 #include <span>
@@ -38,17 +39,53 @@ double by_odeint(LawEquations& equations, double relative, RideTrace* trace) {
       odeint::make_controlled(relative * 1e-3, relative, odeint::runge_kutta_dopri5<State>()),
       system, y, kSamples, kSample, on_sample);
 }
-double by_odeint_of_size(LawEquations& equations, double relative, RideTrace* trace) {
+/// The classical method in equal steps, 1 per sample at 1e-2, 2 at 1e-3, 4, 8 and so on: nothing
+/// watches its error.
+template <std::size_t kSize>
+double by_fixed_steps(LawEquations& equations, double relative, RideTrace* trace) {
+  using State = std::array<double, kSize>;
+  State y{}, slope{};
+  std::copy_n(equations.start.begin(), kSize, y.begin());
+  const int steps = 1 << std::lround(-2 - std::log10(relative));
+  const double h = kSample / steps;
+  const auto system = [&](const State& at, State& dy, double t) {
+    equations.derivative(t, at.data(), dy.data());
+  };
+  odeint::runge_kutta4<State> stepper;
+  const double start = cpu_seconds();
+  for (std::size_t k = 0;; ++k) {
+    const double t = static_cast<double>(k) * kSample;
+    system(y, slope, t);
+    if (trace) trace->push_back({y[0], y[1], y[2], y[3]});
+    if (k == kSamples) break;
+    if (equations.control(y.data(), slope.data())) system(y, slope, t);
+    stepper.do_step(system, y, slope, t, h);
+    for (int step = 1; step < steps; ++step) stepper.do_step(system, y, t + step * h, h);
+  }
+  return cpu_seconds() - start;
+}
+
+/// run<kSize>() of these equations' size.
+double of_size(const LawEquations& equations, auto run) {
   switch (equations.size()) {
     case 4:
-      return by_odeint<4>(equations, relative, trace);
+      return run.template operator()<4>();
     case 5:
-      return by_odeint<5>(equations, relative, trace);
+      return run.template operator()<5>();
     case 6:
-      return by_odeint<6>(equations, relative, trace);
+      return run.template operator()<6>();
     default:
-      return by_odeint<7>(equations, relative, trace);
+      return run.template operator()<7>();
   }
+}
+double by_odeint_of_size(LawEquations& equations, double relative, RideTrace* trace) {
+  return of_size(equations,
+                 [&]<std::size_t kSize>() { return by_odeint<kSize>(equations, relative, trace); });
+}
+double by_fixed_steps_of_size(LawEquations& equations, double relative, RideTrace* trace) {
+  return of_size(equations, [&]<std::size_t kSize>() {
+    return by_fixed_steps<kSize>(equations, relative, trace);
+  });
 }
 template <class Solver>
 double by_arkode(LawEquations& equations, double relative, RideTrace* trace) {
@@ -66,9 +103,12 @@ constexpr double kOwnTolerances[] = {1e-4, 1e-6, 1e-8};
 constexpr double kPeerTolerances[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
 constexpr Peer kPeers[] = {
     {"odeint dopri5", by_odeint_of_size, 8},
-    {"ARKODE DP5(4)", by_arkode<ExplicitArkode>, 8},
+    {"ARKODE DP5(4)", by_arkode<ExplicitArkode<>>, 8},
+    {"ARKODE 4(3)", by_arkode<ExplicitArkode<ARKODE_ZONNEVELD_5_3_4>>, 6},
+    {"ARKODE 3(2)", by_arkode<ExplicitArkode<ARKODE_BOGACKI_SHAMPINE_4_2_3>>, 6},
     {"ARKODE ESDIRK4(3)", by_arkode<ImplicitArkode<ARKODE_ESDIRK436L2SA_6_3_4>>, 5},
     {"ARKODE ESDIRK5(4)", by_arkode<ImplicitArkode<ARKODE_ESDIRK547L2SA_7_4_5>>, 5}};
+constexpr Peer kFixed[] = {{"odeint rk4, equal steps", by_fixed_steps_of_size, 6}};
 
 double by_simulate(const LawRide& ride, double relative, RideTrace* trace) {
   using namespace dashpot;
@@ -133,7 +173,7 @@ Row measure(const std::string& name, std::span<const Peer> peers, int rounds) {
     return run(equations, relative, trace);
   };
   with(by_odeint_of_size, 1e-11, &reference);
-  with(by_arkode<ExplicitArkode>, 1e-11, &other);
+  with(by_arkode<ExplicitArkode<>>, 1e-11, &other);
   row.doubt = distance(reference, other);
 
   const auto point = [&](double relative, auto run) {
@@ -175,7 +215,7 @@ Row measure(const std::string& name, std::span<const Peer> peers, int rounds) {
 
 /// A row of Markdown: simulate() at a tolerance of 1e-6 beside the best of the others at the same
 /// error, then how it stands at 1e-4 and at 1e-8.
-void print(const Row& row) {
+void print(const Row& row, std::span<const Peer> peers) {
   std::array<double, 3> ratios{}, seconds{};
   std::array<std::size_t, 3> best{};
   for (std::size_t k = 0; k < ratios.size(); ++k) {
@@ -188,18 +228,18 @@ void print(const Row& row) {
   }
   std::printf("| %s | %s | %.3g | %.1e | %.3g | %s | %.2f | %.2f | %.2f | %.0e |\n",
               row.ride.name.c_str(), std::string(row.ride.law->law().name).c_str(),
-              1e3 * row.own[1].seconds, row.own[1].error, 1e3 * seconds[1], kPeers[best[1]].name,
+              1e3 * row.own[1].seconds, row.own[1].error, 1e3 * seconds[1], peers[best[1]].name,
               ratios[1], ratios[0], ratios[2], row.doubt);
   std::fflush(stdout);
 }
 
-void print_curves(const Row& row) {
+void print_curves(const Row& row, std::span<const Peer> peers) {
   const auto line = [](const char* name, const Curve& curve) {
     for (const Point& at : curve)
       std::printf("  %-20s %.0e  %8.3f ms  %.1e\n", name, at.relative, 1e3 * at.seconds, at.error);
   };
   line("simulate()", row.own);
-  for (std::size_t p = 0; p < row.peers.size(); ++p) line(kPeers[p].name, row.peers[p]);
+  for (std::size_t p = 0; p < row.peers.size(); ++p) line(peers[p].name, row.peers[p]);
 }
 
 }  // namespace
@@ -217,6 +257,8 @@ int main(int count, char** arguments) {
       curves = true;
     else if (!std::strcmp(arguments[k], "--odeint"))
       peers = peers.first(1);
+    else if (!std::strcmp(arguments[k], "--fixed"))
+      peers = kFixed;
     else
       names.emplace_back(arguments[k]);
   }
@@ -230,7 +272,7 @@ int main(int count, char** arguments) {
       "|---|---|---:|---:|---:|---|---:|---:|---:|---:|\n");
   for (const std::string& name : names) {
     const Row row = measure(name, peers, rounds);
-    print(row);
-    if (curves) print_curves(row);
+    print(row, peers);
+    if (curves) print_curves(row, peers);
   }
 }

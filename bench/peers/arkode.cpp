@@ -6,7 +6,7 @@ namespace {
 
 double run(Ride ride, RideTrace* trace, double relative = kRelative) {
   RideEquations equations(ride, 0);
-  return ride_by_arkode<ExplicitArkode>(equations, std::vector<double>(equations.size()),
+  return ride_by_arkode<ExplicitArkode<>>(equations, std::vector<double>(equations.size()),
                                         kSamples10s, relative, relative * 1e-3, trace);
 }
 

@@ -17,7 +17,8 @@ int arkode_derivative(double t, N_Vector y, N_Vector dy, void* equations) {
   return 0;
 }
 
-/// Dormand and Prince's explicit method, as ARKODE has it.
+/// An explicit method: Dormand and Prince's, or another one that ARKODE has.
+template <ARKODE_ERKTableID kMethod = ARKODE_DORMAND_PRINCE_7_4_5>
 class ExplicitArkode {
  public:
   template <class Equations>
@@ -26,7 +27,7 @@ class ExplicitArkode {
       : solver_(ERKStepCreate(arkode_derivative<Equations>, 0, y, context)) {
     ERKStepSStolerances(solver_, relative, absolute);
     ERKStepSetUserData(solver_, &equations);
-    ERKStepSetTableNum(solver_, ARKODE_DORMAND_PRINCE_7_4_5);
+    ERKStepSetTableNum(solver_, kMethod);
     ERKStepSetMaxNumSteps(solver_, kMostSteps);
     ERKStepSetErrFile(solver_, nullptr);
   }
