@@ -164,6 +164,17 @@ TEST_CASE("mistakes in a dataset file are refused at their line") {
   CHECK(has(message("cut: {from: 7}"), "leaves nothing"));
 }
 
+TEST_CASE("a current in a file of its own is named as one") {
+  const TemporaryFolder folder;
+  folder.write("run.csv", sine_csv());
+  folder.write("run_current.csv", "t [s],Current (A)\n0,0.5\n0.01,0.5\n0.02,0.5\n");
+  const Dataset dataset = load(folder.path());
+  REQUIRE(dataset.records.size() == 1);
+  REQUIRE(dataset.passed_over.size() == 1);
+  CHECK(dataset.passed_over[0].why.find("it holds a current ('Current (A)') with neither motion") ==
+        0);
+}
+
 TEST_CASE("roles give parts of one record that both run from its start") {
   const TemporaryFolder folder;
   folder.write("a.csv", sine_csv());

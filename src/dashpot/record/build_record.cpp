@@ -33,6 +33,16 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
   const bool force = find_use(uses, "force");
   if (motion && force) return {};
 
+  // A current that was logged by itself.
+  if (!motion && !force)
+    for (const char* drive : {"current", "voltage"})
+      if (const ColumnUse* use = find_use(uses, drive))
+        return "it holds a " + use->channel + " ('" +
+               label(table.columns[use->column], use->column) +
+               "') with neither motion nor force, and two files are not joined: state its level in "
+               "the name of the file with the motion (run_0.5A.csv) or in manifest.csv, or put the "
+               "column into that file";
+
   const std::string missing = !motion && !force ? "displacement (or velocity) and force"
                               : motion          ? "force"
                                                 : "displacement (or velocity)";
