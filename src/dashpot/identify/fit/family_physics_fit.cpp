@@ -22,7 +22,7 @@ constexpr std::array kAllRidges{1e-4, 1e-3, 1e-2, 1e-1}, kYieldRidges{1e-3, 1e-2
 constexpr double kOffsetRidge = 1e-5;
 // Of the first solution, and of the last one, which begins where that has ended.
 constexpr int kPhysicsIterations = 30, kLastIterations = 10;
-constexpr double kStep = 1e-5;  // of the differences
+constexpr double kDifferenceStep = 1e-5;  // of the differences
 
 struct Ridges {
   double all = kAllRidges[1], yield = kYieldRidges[1];
@@ -242,7 +242,9 @@ class PhysicsProblem {
 
       // A number moves the forces of all, which is simulated; the offset and a build are known.
       if (i < kPhysicsNumbers) {
-        const double step = x[i] + kStep > FamilyPhysics::table()[i].high ? -kStep : kStep;
+        const double step = x[i] + kDifferenceStep > FamilyPhysics::table()[i].high
+                                ? -kDifferenceStep
+                                : kDifferenceStep;
         at[i] = x[i] + step;
         forces(at, moved);
         at[i] = x[i];
