@@ -8,7 +8,7 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kLevels[] = {0, 0.5, 1};
+constexpr double kDrives[] = {0, 0.5, 1};
 
 /// A slow sine of one member at one current. Its force is within what the gates can tell: stronger
 /// with the field's share and the pole, weaker with the gap; `strength` is the build's.
@@ -52,7 +52,7 @@ Dataset family_data(double spread) {
       // A chessboard: nothing that is linear in gap and length tells of it.
       const double strength = 1 + spread * (++geometry % 2 ? 1 : -1);
       for (const double viscosity : {0.05, 0.3})
-        for (const double level : kLevels)
+        for (const double level : kDrives)
           data.records.push_back(sine_record(gap, length, viscosity, level, strength));
     }
   return data;
