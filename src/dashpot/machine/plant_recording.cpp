@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "dashpot/base/sensor_unit.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
@@ -39,16 +40,6 @@ std::string si_text(const Unit& unit) {
     if (const auto known = parse_unit(si); known && known->dimension == unit.dimension)
       return std::string(si);
   return "SI";
-}
-
-/// A unit as it stands in a file, of what sensors on a plant show: its g is that of gravity, and no
-/// gram.
-Unit sensor_unit(const std::string& unit, const std::string& where) {
-  if (unit == "g" || unit == "G") return require_unit("g0", where);
-  if (unit != "mg") return require_unit(unit, where);
-  Unit thousandth = require_unit("g0", where);
-  thousandth.factor *= 1e-3;
-  return thousandth;
 }
 
 /// The step of stamps that lie on a uniform grid to a hundredth of it, as logs of few digits do; 0
@@ -127,7 +118,8 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
     if (unit.empty()) {
       channel.origin = "column " + name + ", taken as SI: no unit given";
     } else {
-      const Unit of = sensor_unit(unit, where);
+      const std::optional<Unit> known = parse_sensor_unit(unit);
+      const Unit of = known ? *known : require_unit(unit, where);
       for (double& value : channel.samples) value = of.factor * value + of.offset;
       channel.unit = si_text(of);
       channel.origin = "column " + name + ", " + unit;

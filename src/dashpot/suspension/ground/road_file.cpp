@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
+#include "dashpot/base/sensor_unit.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/units.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/suspension/ground/deterministic.h"
@@ -29,19 +29,13 @@ std::string unit_of(const RawColumn& column) {
   return parse_unit(ending) && !parse_number(ending) ? std::string(ending) : std::string();
 }
 
-/// What is stated, else what the column states, else `si`; of the dimension of `si`. An
-/// earthquake's g is that of gravity, and no gram.
+/// What is stated, else what the column states, else `si`; of the dimension of `si`.
 Unit unit_for(const RawColumn& column, std::string_view stated, std::string_view si,
               const std::string& file, const std::string& right) {
   std::string text(stated.empty() ? unit_of(column) : stated);
   if (text.empty()) text = si;
   const Dimension wanted = require_unit(si, file).dimension;
-  if (wanted == require_unit("m/s^2", file).dimension) {
-    if (text == "g" || text == "G") text = "g0";
-    if (text == "mg") return {wanted, 1e-3 * require_unit("g0", file).factor};
-    if (lower(text) == "gal") text = "cm/s^2";
-  }
-  const std::optional<Unit> unit = parse_unit(text);
+  const std::optional<Unit> unit = parse_sensor_unit(text);
   if (!unit || unit->dimension != wanted)
     throw Error(file, "'" + column.name + "' is counted in '" + text + "'", right);
   return *unit;
