@@ -12,7 +12,8 @@ std::vector<double> differentiate_zero_phase(std::span<const double> x, double d
                                              double cutoff_hz);
 
 /// A cut-off for it: ten times the frequency below which 99 % of the motion's power (its mean
-/// apart) lies, within [10 Hz, 0.4 / dt].
+/// apart) lies, within [10 Hz, 0.4 / dt]; doubled for as long as it takes 2 % or more of the speed
+/// from a stretch of the record that is fast, and no noise looks like that.
 double choose_cutoff_hz(std::span<const double> x, double dt);
 
 }  // namespace dashpot
