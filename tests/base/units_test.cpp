@@ -1,5 +1,7 @@
 #include "dashpot/base/units.h"
 
+#include <numbers>
+
 #include "support.h"
 
 using namespace dashpot;
@@ -53,4 +55,16 @@ TEST_CASE("a voltage-driven model counts per volt") {
   CHECK(with_drive_unit("N/A^2", DriveUnit::Volt) == "N/V^2");
   CHECK(with_drive_unit("N/A", DriveUnit::Ampere) == "N/A");
   CHECK(with_drive_unit("mA", DriveUnit::Volt) == "mA");
+}
+
+TEST_CASE("a frequency counts turns, an angle over time 2 pi of them, a rate neither") {
+  CHECK_CLOSE(parse_quantity("2rad/s", "Hz", "x"), 1 / std::numbers::pi, 1e-15, 0);
+  CHECK_CLOSE(parse_quantity("720 deg/s", "Hz", "x"), 2, 1e-15, 0);
+  CHECK_CLOSE(parse_quantity("720°/s", "Hz", "x"), 2, 1e-15, 0);
+  CHECK(parse_quantity("2 1/s", "Hz", "x") == 2);
+  CHECK(parse_quantity("3kHz", "Hz", "x") == 3000);
+  CHECK(parse_quantity("314 rad/s", "1/s", "x") == 314);
+  CHECK(message_of([] { parse_quantity("50Hz", "1/s", "--damper, lag_rate"); }) ==
+        "--damper, lag_rate: 'Hz' is not a unit of a rate; it is counted in 1/s; that of a lag is "
+        "2 pi times its corner frequency in Hz");
 }

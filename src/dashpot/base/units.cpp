@@ -167,6 +167,17 @@ bool multiply(Unit& unit, std::string_view product, int sign) {
   return true;
 }
 
+/// What a number of `unit` is to be multiplied by beside its factor to count in `si_unit`: Hz
+/// counts whole turns, rad/s angles, and a rate in 1/s neither, all of the same dimension.
+double turns(std::string_view unit, std::string_view si_unit, const std::string& where) {
+  const auto has = [&](std::string_view word) { return unit.find(word) != std::string_view::npos; };
+  if (si_unit == "Hz" && (has("rad") || has("deg") || has("\u00b0"))) return 1 / (2 * kPi);
+  if (si_unit == "1/s" && has("Hz"))
+    throw Error(where, "'" + std::string(unit) + "' is not a unit of a rate",
+                "it is counted in 1/s; that of a lag is 2 pi times its corner frequency in Hz");
+  return 1;
+}
+
 }  // namespace
 
 std::optional<Unit> parse_unit(std::string_view text) {
@@ -217,7 +228,7 @@ double parse_quantity(std::string_view text, std::string_view si_unit, const std
   if (unit.dimension != require_unit(si_unit, where).dimension)
     throw Error(where, "'" + std::string(suffix) + "' is not a unit of it",
                 "it is counted in " + std::string(si_unit));
-  return unit.factor * number + unit.offset;
+  return turns(suffix, si_unit, where) * unit.factor * number + unit.offset;
 }
 
 std::string with_drive_unit(std::string_view unit, DriveUnit drive_unit) {

@@ -26,8 +26,8 @@ std::optional<Unit> parse_unit(std::string_view text);
 /// As parse_unit, but throws Error(where, ...) that names the unit and near ones.
 Unit require_unit(std::string_view text, const std::string& where);
 
-/// "1.5 mm", "5N/cm" or a plain number, which is in SI, as a number in `si_unit`. Throws
-/// Error(where, ...) on anything else, and on a unit of another dimension.
+/// "1.5 mm", "5N/cm" or a plain number (in SI) in `si_unit`; in Hz, rad/s count as angles. Throws
+/// Error(where, ...) on anything else: a unit of another dimension, Hz of a rate in 1/s.
 double parse_quantity(std::string_view text, std::string_view si_unit, const std::string& where);
 
 /// `unit` (an SI unit text with powers of A, as in a law's table) with V in place of A: parameters
