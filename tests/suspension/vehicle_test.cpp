@@ -181,7 +181,7 @@ TEST_CASE("values in place of the plant's, in its units, and a damper per strut"
   const TemporaryFolder folder;
   const auto own =
       folder.write("own.json", R"({"title": "x", "source": "y", "verified": true, "reason": "z",
-    "plant": "quarter_car", "parameters": {"sprung_mass": "250 kg"}, "damping": [100, 900, 2000]})");
+    "plant": "quarter_car", "parameters": {}, "damping": [100, 900, 2000]})");
   CHECK(make_vehicle({.plant = own.string()}).limits.damping_max == 2000);
 }
 
@@ -226,6 +226,15 @@ TEST_CASE("vehicles that cannot be are refused, in words") {
   VehicleWords words{.plant = "tudon_martinez2012", .controller = "clipped_lqr"};
   words.sensors.in_car = true;
   CHECK(refusal(words).find("'clipped_lqr' feeds back what no sensor of a car measures") !=
+        std::string::npos);
+  VehicleWords late{.controller = "skyhook"};
+  late.sensors.delay = 0.005;
+  CHECK(refusal(late) ==
+        "vehicle: a delay of the sensors, but ideal sensors, which have none; sensors as in a car "
+        "(--in-car), or no delay");
+  CHECK(refusal({.controller = "skyhook,crossover=2Hz"}) ==
+        "vehicle: skyhook has no parameter 'crossover'; it has none at all");
+  CHECK(refusal({.dampers = {"ideal,lag_rate=50Hz"}}).find("'Hz' is not a unit of a rate") !=
         std::string::npos);
 }
 

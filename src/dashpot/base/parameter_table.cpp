@@ -26,6 +26,9 @@ std::size_t row_named(ParameterTable table, std::string_view name, std::string_v
                       const std::string& where) {
   const auto found = std::ranges::find(table, name, &ParameterRow::name);
   if (found != table.end()) return static_cast<std::size_t>(found - table.begin());
+  if (table.empty())
+    throw Error(where, std::string(owner) + " has no parameter '" + std::string(name) + "'",
+                "it has none at all");
   std::vector<std::string> known;
   for (const ParameterRow& row : table) known.emplace_back(row.name);
   throw Error(where, std::string(owner) + " has no parameter '" + std::string(name) + "'",

@@ -234,6 +234,9 @@ namespace {
 /// The vehicle with these dampers, one per strut.
 Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
                      const VehicleWords& words) {
+  if (words.sensors.delay > 0 && !words.sensors.in_car)
+    throw Error(words.where, "a delay of the sensors, but ideal sensors, which have none",
+                "sensors as in a car (--in-car), or no delay");
   Vehicle vehicle{.set = std::move(set), .sensors = words.sensors};
   if (!vehicle.set.verified)
     vehicle.notes.push_back("the numbers of " + vehicle.set.name +

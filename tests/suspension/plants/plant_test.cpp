@@ -146,3 +146,23 @@ TEST_CASE("a plant that cannot be is refused, with what would be right") {
   CHECK(text("[[1,0],[1,1]]").find("is not symmetric") != std::string::npos);
   CHECK(text("[[1,0],[0,1]]").empty());
 }
+
+TEST_CASE("a plant's file that states some numbers states all: none is another vehicle's") {
+  const auto made = [](const std::string& parameters, const NamedValues& changes = {}) {
+    return message_of([&] {
+      parse_plant_set(R"({"title":"t","source":"s","verified":true,"reason":"r",)"
+                      R"("plant":"quarter_car","parameters":)" +
+                          parameters + "}",
+                      "my.json", "mine", changes);
+    });
+  };
+  const std::string three =
+      R"({"sprung_mass":450,"spring_stiffness":"22 N/mm","tyre_stiffness":"220 N/mm")";
+  CHECK(
+      made(three + "}") ==
+      "my.json, parameters: quarter_car needs 'unsprung_mass' (kg) too; state all that it has, or "
+      "{} for the numbers of the table");
+  CHECK(made(three + R"(,"unsprung_mass":45})").empty());
+  CHECK(made(three + "}", {{"unsprung_mass", 45}}).empty());
+  CHECK(made("{}").empty());
+}

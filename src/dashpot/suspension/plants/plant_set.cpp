@@ -10,6 +10,19 @@
 namespace dashpot {
 namespace {
 
+/// A plant that states some of its numbers states all of them: masses and stiffnesses that nobody
+/// named would be those of the table, of another vehicle.
+void require_stated(const PlantModel& model, const NamedValues& stated, const std::string& where) {
+  constexpr std::string_view kOfStops = "stop_stiffness";  // there are none unless stated
+  for (const ParameterRow& row : model.parameters)
+    if (row.value > 0 && row.name != kOfStops &&
+        std::ranges::none_of(stated, [&](const auto& one) { return one.first == row.name; }))
+      throw Error(where,
+                  std::string(model.name) + " needs '" + std::string(row.name) + "' (" +
+                      std::string(row.unit) + ") too",
+                  "state all that it has, or {} for the numbers of the table");
+}
+
 Plant from_parameters(const PlantModel& model, const Value& parameters,
                       const NamedValues& changes) {
   NamedValues values;
@@ -20,7 +33,9 @@ Plant from_parameters(const PlantModel& model, const Value& parameters,
                                   ? checked(row, value.as_number(), value.where())
                                   : parse_value(row, value.as_string(), value.where()));
   }
+  const bool states_some = !values.empty();
   values.insert(values.end(), changes.begin(), changes.end());
+  if (states_some) require_stated(model, values, parameters.where());
   return make_plant(model, values, parameters.where());
 }
 
