@@ -1,6 +1,7 @@
 #include "dashpot/identify/judge/extrapolation.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -32,7 +33,8 @@ std::vector<Quantity> quantities(const ModelFile& file) {
 
 Extrapolation measure(const Quantity& q, const std::vector<std::vector<DamperInput>>& records) {
   const double margin = kMargin * (q.high - q.low);
-  Extrapolation e{q.name, q.unit, q.low, q.high, q.high, q.low, 0};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extrapolation e{q.name, q.unit, q.low, q.high, kInfinity, -kInfinity, 0};
   std::size_t outside = 0, all = 0;
   for (const std::vector<DamperInput>& inputs : records)
     for (const DamperInput& input : inputs) {
@@ -64,10 +66,11 @@ std::string describe(const Extrapolation& e) {
   const auto range = [&](double low, double high) {
     return format_number(low, 3) + " ... " + format_number(high, 3) + " " + e.unit;
   };
+  const int digits = e.share < 0.995 ? 2 : 3;
   return fmt::format(
       "{} % of the samples have a {} outside the model's range {} (the recordings span {}): it "
       "extrapolates there",
-      format_number(100 * e.share, 2), e.quantity, range(e.low, e.high),
+      format_number(100 * e.share, digits), e.quantity, range(e.low, e.high),
       range(e.data_low, e.data_high));
 }
 
