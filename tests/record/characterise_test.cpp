@@ -145,6 +145,32 @@ TEST_CASE("energy, equivalent damping and hysteresis of a dashpot are those of t
   CHECK(all.levels.front().rebound.why_no_knee != "");
 }
 
+TEST_CASE("the energy of a cycle is told where the strokes of a speed are alike") {
+  // 20 mm at 1 Hz and 10 mm at 2 Hz have one speed: their cycles take unlike energies, and the same
+  // damping.
+  const Truth truth{.friction = 0, .gas = 0};
+  const std::vector<Record> alike{dyno_record(truth, {1}, 0.02, 4, 0, 1, "a"),
+                                  dyno_record(truth, {1}, 0.0206, 4, 0, 1, "b")},
+      unlike{alike.front(), dyno_record(truth, {2}, 0.01, 4, 0, 1, "c")};
+  const SpeedFigures told = characterise(dataset_of(alike)).levels.front().speeds.front();
+  CHECK_CLOSE(told.stroke, 0.0406, 0.01, 0);
+  CHECK(told.energy > 0);
+  const SpeedFigures untold = characterise(dataset_of(unlike)).levels.front().speeds.front();
+  CHECK(untold.cycles > told.cycles / 2);
+  CHECK(std::isnan(untold.stroke));
+  CHECK(std::isnan(untold.energy));
+  CHECK_CLOSE(untold.equivalent_damping, told.equivalent_damping, 0.05, 0);
+
+  // Nor between two speeds of unlike strokes.
+  const LevelFigures level =
+      characterise(dataset_of({alike.front(), dyno_record(truth, {4}, 0.01, 4, 0, 1, "d")}))
+          .levels.front();
+  REQUIRE(level.speeds.size() == 2);
+  CHECK(level.speeds.front().energy > 0);
+  CHECK(std::isnan(at_speed(level, 0.18)->energy));
+  CHECK(at_speed(level, 0.18)->damping_force > 0);
+}
+
 TEST_CASE("force that fades is a drift; over temperature a fade per kelvin; steady force is none") {
   // The force falls by 5 % over the record, and the oil warms by 10 K.
   Record record = dyno_record({.friction = 0, .gas = 0}, {1}, 0.025, 20, 0.002, 6);

@@ -12,6 +12,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kSameSpeed = 0.05;  // cycles within this share of speed are alike
+constexpr double kSameStroke = 0.1;  // ... and of stroke
 constexpr double kSameDrive = 0.02;  // of the greatest drive: levels within it are one
 constexpr double kSteadyDrive =
     0.05;  // of the greatest drive: the most that it may vary in a cycle
@@ -58,7 +59,13 @@ SpeedFigures figures_of_group(const std::vector<Member>& group) {
   figures.speed = (figures.rebound.mid_speed + figures.compression.mid_speed) / 2;
   figures.damping_force = mean([](const CycleFigures& c) { return c.damping_force; });
   figures.hysteresis = mean([](const CycleFigures& c) { return c.hysteresis; });
-  figures.energy = mean([](const CycleFigures& c) { return c.energy; });
+
+  // The energy of a cycle grows with its stroke: it is told of alike strokes alone.
+  const auto [least, most] =
+      std::ranges::minmax(group, {}, [](const Member& member) { return member.cycle->stroke; });
+  const bool alike = most.cycle->stroke <= (1 + kSameStroke) * least.cycle->stroke;
+  figures.stroke = alike ? mean([](const CycleFigures& c) { return c.stroke; }) : kNoNumber;
+  figures.energy = alike ? mean([](const CycleFigures& c) { return c.energy; }) : kNoNumber;
   figures.equivalent_damping = mean([](const CycleFigures& c) { return c.equivalent_damping; });
   return figures;
 }
@@ -263,6 +270,8 @@ std::optional<SpeedFigures> at_speed(const LevelFigures& level, double speed) {
   for (double SpeedFigures::* field : {&SpeedFigures::damping_force, &SpeedFigures::hysteresis,
                                        &SpeedFigures::energy, &SpeedFigures::equivalent_damping})
     between.*field = mix(a.*field, b.*field);
+  if (!(std::abs(a.stroke - b.stroke) <= kSameStroke * std::min(a.stroke, b.stroke)))
+    between.stroke = between.energy = kNoNumber;
   between.speed = speed;
   return between;
 }

@@ -18,12 +18,14 @@ namespace dashpot {
 struct SpeedFigures {
   double speed = 0;  ///< m/s, mean of the mid-stroke speeds of both directions
   std::size_t cycles = 0;
+  double stroke = 0;  ///< m, mean; not a number where the cycles' strokes are unlike
   StrokeFigures rebound, compression;  ///< means
   double damping_force = 0;            ///< N, mean
   /// %, standard deviation of damping_force between the cycles of one record, pooled; not a number
   /// where no record has two.
   double repeatability = kNoNumber;
-  double hysteresis = 0, energy = 0, equivalent_damping = 0;  ///< means, as of a cycle
+  /// Means, as of a cycle; the energy is not a number where the strokes are unlike.
+  double hysteresis = 0, energy = 0, equivalent_damping = 0;
 };
 
 /// All cycles at one level of the drive.

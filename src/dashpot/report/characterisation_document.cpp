@@ -121,7 +121,8 @@ DocumentTable speed_table(const Characterisation& all, const std::vector<double>
       "Rebound, Compr.: force in the middle of the stroke. Peak: the greatest of the cycle. ± %: "
       "standard deviation between cycles of a record. Hyst.: how much more force at half speed "
       "while speed falls. " +
-      unit_name("N*s/m") + ": the dashpot that takes out as much energy.";
+      unit_name("N*s/m") + ": the dashpot that takes out as much energy; " + unit_name("J") +
+      " of alike strokes alone.";
   return table;
 }
 
@@ -406,7 +407,7 @@ Value level_json(const LevelFigures& level) {
                                     {"damping_force", s.damping_force},
                                     {"repeatability_percent", told(s.repeatability)},
                                     {"hysteresis", told(s.hysteresis)},
-                                    {"energy", s.energy},
+                                    {"energy", told(s.energy)},
                                     {"equivalent_damping", s.equivalent_damping}}));
   return Value::object({{"drive", level.drive ? Value(*level.drive) : Value()},
                         {"basis", level.basis},
