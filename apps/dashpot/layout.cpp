@@ -39,7 +39,8 @@ std::string Table::text(std::size_t width, std::size_t indent) const {
     for (std::size_t c = 0; c <= last; ++c) widths[c] = std::max(widths[c], columns_of(cells[c]));
   std::size_t before = indent;
   for (std::size_t c = 0; c < last; ++c) before += widths[c] + kGap;
-  const bool is_beside = last == 0 || width >= before + std::min(widths[last], kNarrowest);
+  const bool is_beside =
+      last == 0 || right_[last] || width >= before + std::min(widths[last], kNarrowest);
   const std::size_t start = is_beside ? before : indent + kBelow;
   widths[last] = std::min(widths[last], width > start + kNarrowest ? width - start : kNarrowest);
 

@@ -6,7 +6,8 @@
 
 namespace dashpot::cli {
 
-/// A table for a terminal. The last column gives way, line by line, when the terminal is narrow.
+/// A table for a terminal. The last column gives way, line by line, when the terminal is narrow,
+/// unless it is of numbers.
 class Table {
  public:
   /// A title that begins with '>' stands over a column of numbers, set flush right.

@@ -15,6 +15,7 @@
 #include "dashpot/dataset.h"
 #include "dashpot/report/track_figure.h"
 #include "dashpot/report/words.h"
+#include "data.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -51,11 +52,14 @@ struct Task {
   std::string description;
 };
 
-Task recorded_task(const std::string& path) {
-  const Dataset dataset = load_dataset({path});
+Task recorded_task(const std::string& path, Console& console) {
+  DataSettings data;
+  data.paths = {path};
+  const Dataset dataset = load_recordings(data, console);
   const Record& record = dataset.records.front();
   if (record.sample_time == 0)
-    throw Error(record.name, "is not sampled at equal steps of time", "resample it");
+    throw Error(record.name, "is not sampled at equal steps of time",
+                "state 'resample: RATE' (Hz) in a dataset file beside it");
   return {{record.sample_time,
            record.channel("displacement").samples,
            record.channel("velocity").samples,
@@ -64,8 +68,9 @@ Task recorded_task(const std::string& path) {
           "measured, " + record.name};
 }
 
-Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverOptions driver) {
-  if (!settings.recording.empty()) return recorded_task(settings.recording);
+Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverOptions driver,
+               Console& console) {
+  if (!settings.recording.empty()) return recorded_task(settings.recording, console);
 
   // The motion comes first: what force is possible depends on it.
   const MotionOptions options{settings.amplitude / 1000, settings.frequency, settings.duration,
@@ -89,6 +94,28 @@ Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverO
 
   task.description += "; " + task.motion.description;
   return task;
+}
+
+/// Says where the motion leaves the data that the model knows.
+void warn_beyond_data(const Damper& damper, const Motion& motion, Console& console) {
+  if (!damper.domain) return;
+  const auto look = [&](const std::string& name, const std::string& unit,
+                        const std::vector<double>& values, double low, double high) {
+    constexpr double kMargin = 0.01;  // of the range: rounding and noise
+    const double margin = kMargin * (high - low);
+    const auto outside = std::ranges::count_if(
+        values, [&](double value) { return value < low - margin || value > high + margin; });
+    if (outside > 0)
+      console.warn(
+          percent_text(100 * static_cast<double>(outside) / static_cast<double>(values.size())) +
+          " % of the time the " + name + " is outside the model's range " + format_number(low, 3) +
+          " ... " + format_number(high, 3) + " " + unit + ": it extrapolates there");
+  };
+  const Domain& domain = *damper.domain;
+  look("velocity", "m/s", motion.velocity, domain.velocity_min, domain.velocity_max);
+  if (damper.model->needs_displacement())
+    look("displacement", "m", motion.displacement, domain.displacement_min,
+         domain.displacement_max);
 }
 
 DriverOptions make_driver(const TrackSettings& settings, const Damper& damper) {
@@ -195,7 +222,8 @@ int run_track(const TrackSettings& settings, Console& console) {
   const Damper damper = load_damper(settings.damper, "track", console);
   const DriverOptions options = make_driver(settings, damper);
   const Driver driver(options);
-  const Task task = make_task(settings, *damper.model, options);
+  const Task task = make_task(settings, *damper.model, options, console);
+  warn_beyond_data(damper, task.motion, console);
 
   const std::vector<TrackedScheme> tracked = track_all(settings, damper, driver, task, console);
 

@@ -51,10 +51,19 @@ TEST_CASE("track: a recording's motion and force, a model file, curves and a pic
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(contains(result.output, "Wanted force: measured, "));
+  CHECK(contains(result.output, " records, "));  // how the recording was understood
   for (const char* name : {"numeric.csv", "polynomial.csv"})
     CHECK(read_file(curves + "/" + name)
               .starts_with("t_s,x_mm,v_m/s,F_wanted_N,F_obtained_N,command_voltage_V,"));
   CHECK(contains(read_file(curves + "/track.svg"), "<svg"));
+
+  // The model's data are slower than this motion. The last column of numbers keeps its title.
+  const ProgramResult fast =
+      run_program("COLUMNS=50 " + program_path() + " track " + results +
+                  "/models/bingham.json --inverse numeric --duration 1 --amplitude 100");
+  CAPTURE(fast.output);
+  CHECK(contains(fast.output, "% of the time the velocity is outside the model's range"));
+  CHECK(contains(fast.output, "time out  at limit\n"));
 }
 
 TEST_CASE("track: wrong command lines" * doctest::test_suite("long")) {
