@@ -224,6 +224,7 @@ std::vector<double> grid_of(const std::string& text, const std::string& option, 
     if (grid.size() != 3 || grid[1] <= 0 || grid[2] < grid[0]) throw wrong("is '" + text + "'");
     const double low = grid[0], step = grid[1], steps = std::floor((grid[2] - low) / step + 1e-9);
     if (!(steps < kMost)) throw wrong("has more than " + std::to_string(kMost) + " steps");
+    if (steps < 1) throw wrong("'" + text + "' is a single number: its step is beyond its end");
     grid.clear();
     for (double k = 0; k <= steps; ++k) grid.push_back(low + k * step);
   }
@@ -232,6 +233,17 @@ std::vector<double> grid_of(const std::string& text, const std::string& option, 
   std::ranges::sort(grid);
   if (std::ranges::adjacent_find(grid) != grid.end()) throw wrong("holds a number twice");
   return grid;
+}
+
+/// s; 0 where none is stated.
+double sample_time_of(const std::string& text) {
+  constexpr double kLongest = 1;  // s; 5 was meant to be 5 ms
+  if (text.empty()) return 0;
+  const double seconds = parse_quantity(text, "s", "--sample-time");
+  if (!(seconds > 0 && seconds <= kLongest))
+    throw Error("--sample-time", "a sample time of " + format_number(seconds) + " s",
+                "above 0 and at most 1 s, as 5ms");
+  return seconds;
 }
 
 /// The grid is of tables alone.
@@ -296,9 +308,7 @@ int run_export(const ExportSettings& settings, Console& console) {
   const ExportOptions options{
       .name = settings.name,
       .precision = precision_of(settings),
-      .sample_time = settings.sample_time.empty()
-                         ? 0
-                         : parse_quantity(settings.sample_time, "s", "--sample-time"),
+      .sample_time = sample_time_of(settings.sample_time),
       .settable_parameters = settings.tunable,
       .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
       .sources_only = settings.sources_only,

@@ -109,6 +109,9 @@ TEST_CASE("export says what is wrong") {
   complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
   complains(damper + "--to c --sample-time=-1ms", "sample time");
   complains(damper + "--to onnx --sample-time=soon", "--sample-time");
+  complains(damper + "--to c --sample-time=5",
+            "a sample time of 5 s; above 0 and at most 1 s, as 5ms");
+  complains(damper + "--to c --sample-time=0", "a sample time of 0 s");
   complains(damper + "--to onnx --precision half", "half");
   complains(damper + "--to onnx -o /proc/none", "/proc/none");
 }
@@ -124,6 +127,7 @@ TEST_CASE("export --velocities: a grid in mm/s, a warning beyond the data, and w
   for (const auto& [options, words] :
        {std::pair{" --to tables --velocities 100,x", "'x' is not a number"},
         std::pair{" --to tables --velocities 0:0:100", "low:step:high"},
+        std::pair{" --to tables --velocities=-500:600:50", "is a single number"},
         std::pair{" --to tables --currents 1,1", "holds a number twice"},
         std::pair{" --to c --velocities 100", "is the grid of tables"}}) {
     const ProgramResult wrong = run_dashpot(asked + options);
