@@ -25,3 +25,17 @@ TEST_CASE("a table that is too wide shortens names, then leaves out the least im
         "----------------------------\n"
         "abcdefghijklmnopqr..  1    3\n");
 }
+
+TEST_CASE("names that begin alike keep their ends when they are shortened") {
+  const std::vector<TextColumn> columns{{"Measure", false, 0, true}, {"A", true, 0}};
+  CHECK(text_table(columns,
+                   {{"dynamic over static tyre load, rms", "1"},
+                    {"dynamic over static tyre load, greatest", "2"},
+                    {"travel", "3"}},
+                   25) ==
+        "Measure                 A\n"
+        "-------------------------\n"
+        "dynamic ov.. load, rms  1\n"
+        "dynamic ov.., greatest  2\n"
+        "travel                  3\n");
+}

@@ -1,6 +1,7 @@
 #include "dashpot/report/text_table.h"
 
 #include <algorithm>
+#include <map>
 
 #include "dashpot/base/escape.h"
 #include "dashpot/report/wrap.h"
@@ -11,8 +12,22 @@ namespace {
 
 constexpr std::size_t kGap = 2, kShortest = 20;
 
-std::string shortened(const std::string& text, std::size_t width) {
-  return columns_of(text) <= width ? text : first_columns(text, width - 2) + "..";
+/// The beginning of the text, or, to tell texts of one beginning apart, its beginning and its end.
+std::string shortened(const std::string& text, std::size_t width, bool with_end) {
+  if (columns_of(text) <= width) return text;
+  const std::size_t end = with_end ? (width - 2) / 2 : 0;
+  const std::string before_end = first_columns(text, columns_of(text) - end);
+  return first_columns(text, width - 2 - end) + ".." + text.substr(before_end.size());
+}
+
+/// Whether unlike cells of a column have the same beginning of that width.
+bool begin_alike(const std::vector<std::vector<std::string>>& rows, std::size_t column,
+                 std::size_t width) {
+  std::map<std::string, std::string> seen;
+  return std::ranges::any_of(rows, [&](const std::vector<std::string>& row) {
+    const std::string& cell = row[column];
+    return seen.emplace(shortened(cell, width, false), cell).first->second != cell;
+  });
 }
 
 struct Layout {
@@ -75,12 +90,16 @@ std::string text_table(const std::vector<TextColumn>& columns,
   const Layout layout =
       lay_out(columns, std::move(widths), static_cast<std::size_t>(std::max(width, 20)));
 
+  std::vector<bool> with_end(columns.size(), false);
+  for (const std::size_t k : layout.shown) with_end[k] = begin_alike(rows, k, layout.widths[k]);
+
   std::string text;
   const auto add_line = [&](const auto& cell) {
     std::string line;
     for (const std::size_t k : layout.shown) {
       if (!line.empty()) line.append(kGap, ' ');
-      line += padded(shortened(cell(k), layout.widths[k]), layout.widths[k], columns[k].numeric);
+      const std::string part = shortened(cell(k), layout.widths[k], with_end[k]);
+      line += padded(part, layout.widths[k], columns[k].numeric);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   };

@@ -27,7 +27,7 @@ struct TextColumn {
 std::vector<std::size_t> columns_for(const std::vector<TextColumn>& columns, Audience medium);
 
 /// Aligned columns for a terminal, two spaces apart, with a rule below the titles, within `width`
-/// characters where leaving out and shortening columns can make it so.
+/// characters where leaving out and shortening columns can: in the middle of what begins alike.
 std::string text_table(const std::vector<TextColumn>& columns,
                        const std::vector<std::vector<std::string>>& rows, int width);
 
