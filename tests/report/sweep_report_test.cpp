@@ -58,6 +58,7 @@ TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what
   const DocumentTable& ratios = table_of(document, "ratios");
   CHECK(ratios.rows[0][0] == "Body acceleration");
   CHECK(ratios.rows[0][4] == "0.5");
+  CHECK(ratios.rows[0].back() == "100 % of 201");  // one has diverged
   const DocumentTable& quantiles = table_of(document, "quantiles");
   // Median of 500.5 - 300 ... 500.5 - 501 is 100; stops, which nobody meets, are left out
   CHECK(quantiles.rows[2][0] == "Weighted acceleration (m/s^2)");

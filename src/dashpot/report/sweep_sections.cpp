@@ -214,8 +214,11 @@ DocumentSection ratio_section(const Sweep& sweep) {
       if (!spread) continue;
       const auto less = static_cast<double>(std::ranges::lower_bound(ratios, 1.0) - ratios.begin());
       table.rows.push_back(quantile_row(std::string(shown.measure->title), name, *spread, shown));
-      table.rows.back().push_back(number_text(100 * less / static_cast<double>(ratios.size())) +
-                                  " %");
+      // There is no ratio to a measure that is 0, as the time without contact.
+      const std::size_t all = sweep.rides[c].size();
+      table.rows.back().push_back(
+          number_text(100 * less / static_cast<double>(ratios.size())) + " %" +
+          (ratios.size() < all ? " of " + std::to_string(ratios.size()) : ""));
       panel.series.push_back(quantile_curve(ratios, 1, name, series_colour(c)));
     }
 

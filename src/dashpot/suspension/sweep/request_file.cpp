@@ -160,8 +160,10 @@ void read_drawing(ObjectReader& reader, SweepRequest& request) {
 
 void require_consistent(const SweepRequest& request, const std::string& source) {
   if (!(request.discard < request.duration))
-    throw Error(source, "nothing is left of " + format_number(request.duration) + " s when " +
-                            format_number(request.discard) + " s are discarded");
+    throw Error(source,
+                "nothing is left of " + format_number(request.duration) + " s when " +
+                    format_number(request.discard) + " s are discarded",
+                "a longer 'duration', or a shorter 'discard'");
   const auto is_road = [](const SweepInput& input) {
     return input.target == SweepInput::Target::RoadClass ||
            (input.target == SweepInput::Target::Road && input.parameter == "roughness");
