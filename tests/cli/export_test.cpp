@@ -60,6 +60,9 @@ TEST_CASE("export takes an inverse network, to what runs sample by sample") {
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(folder.path() / "controller.c"));
+  // Who uses it begins where the damper stands.
+  CHECK(contains(dashpot::read_file(folder.path() / "controller.h"),
+                 " *   controller_model model;\n *   controller_reset(&model, &input);\n"));
   CHECK(run_dashpot(command + "onnx --name controller").exit_code == 0);
   for (const char* name : {"controller.onnx", "controller_rest.onnx"})
     CHECK(fs::exists(folder.path() / name));

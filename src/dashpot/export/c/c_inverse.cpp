@@ -22,6 +22,11 @@ constexpr const char* kInverseAbout =
 constexpr const char* kInverseHeader = R"(/* The current for a wanted force: @title@.
  *
  * @about@
+ *
+ *   damper_model model;
+ *   damper_reset(&model, &input);
+ *   for (;;) current = damper_step(&model, &input);
+ *
  * C99 with math.h: no heap, no files, no variables outside a damper_model.
  * Made by Dashpot @version@:
  *   @command@

@@ -16,7 +16,8 @@ typedef struct damper_model {
   double state[DAMPER_STATE_SIZE];
 } damper_model;
 
-/* Long at rest, at displacement 0 and the least current. */
+/* Long at rest, at displacement 0 and the least current. Where the damper stands elsewhere,
+ * damper_reset: the first step would be a leap, which a model with memory feels for seconds. */
 void damper_init(damper_model* model);
 /* Long at rest at this displacement and current. */
 void damper_reset(damper_model* model, const damper_input* input);
