@@ -135,6 +135,14 @@ TEST_CASE("rides that cannot be are refused") {
         }).find("vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?") == 0);
   CHECK(refusal([](auto& o) { o.frequencies = {4, 2}; }) ==
         "vehicle: its frequencies do not rise from above 0");
+  CHECK(refusal([](auto& o) { o.gains.amplitude = 0; }) ==
+        "vehicle: its sines have no amplitude; an amplitude above 0");
+  const TemporaryFolder folder;
+  const std::string shaking =
+      "earthquake,file=" +
+      folder.write("quake.csv", "time [s],acc [m/s^2]\n0,0\n1,1\n2,0\n").string();
+  CHECK(refusal([&](auto& o) { o.road = shaking; }) ==
+        "--road: '" + shaking + "' shakes buildings, not the savaresi_spelta; a road, a bump");
   CHECK(refusal([](auto& o) {
           o.vehicle.plant = "dyke_spencer1996";
           o.vehicle.dampers = {"spencer1997"};

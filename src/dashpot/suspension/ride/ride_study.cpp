@@ -161,6 +161,8 @@ void require_rideable(const RideStudyOptions& options, const Vehicle& vehicle) {
   if (options.frequencies.empty() || !std::ranges::is_sorted(options.frequencies) ||
       !(options.frequencies.front() > 0))
     throw Error(options.vehicle.where, "its frequencies do not rise from above 0");
+  if (!(options.gains.amplitude > 0))
+    throw Error(options.vehicle.where, "its sines have no amplitude", "an amplitude above 0");
 
   // What would not end in a day is refused before it begins.
   constexpr double kLeastFrequency = 1e-3, kMostFrequency = 1e3;  // Hz
@@ -232,6 +234,10 @@ RideStudy study_ride(const RideStudyOptions& options) {
     possible_forces(*vehicles.back(), {0.1, 1}, kBound);  // throws where nothing can be proven
   const std::vector<SharedVehicle> held = make_held(options, vehicles.back()->limits);
   const GroundPointer road = make_ground(options.road, options.seed, "--road");
+  if (road->shakes())
+    throw Error("--road",
+                "'" + options.road + "' shakes buildings, not the " + vehicles.front()->set.name,
+                "a road, a bump");
   study.ground = road->description();
 
   // A task per run, each with a place of its own, which must not move any more.
