@@ -96,8 +96,9 @@ Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverO
   return task;
 }
 
-/// Says where the motion leaves the data that the model knows.
-void warn_beyond_data(const Damper& damper, const Motion& motion, Console& console) {
+/// Says where the motion, or what the coil may get, leaves the data that the model knows.
+void warn_beyond_data(const Damper& damper, const DriverOptions& driver, const Motion& motion,
+                      Console& console) {
   if (!damper.domain) return;
   const auto look = [&](const std::string& name, const std::string& unit,
                         const std::vector<double>& values, double low, double high) {
@@ -116,6 +117,24 @@ void warn_beyond_data(const Damper& damper, const Motion& motion, Console& conso
   if (damper.model->needs_displacement())
     look("displacement", "m", motion.displacement, domain.displacement_min,
          domain.displacement_max);
+
+  constexpr double kRounding = 1e-9;
+  if (driver.current_max > domain.current_max * (1 + kRounding))
+    console.warn("the coil gets up to " + format_number(driver.current_max) + ' ' +
+                 to_string(damper.drive_unit) + ", beyond the model's " +
+                 format_number(domain.current_max) + ": it extrapolates there");
+}
+
+/// "0 ... 2 A, coil lag 5 ms": the limits of coil and driver are part of the result.
+std::string coil_text(const DriverOptions& driver, const std::string& unit) {
+  std::string text = format_number(driver.current_min) + " ... " +
+                     format_number(driver.current_max) + ' ' + unit + ", coil lag " +
+                     (driver.lag_rate > 0 ? format_number(1000 / driver.lag_rate) + " ms" : "none");
+  if (std::isfinite(driver.rate_max))
+    text += ", at most " + format_number(driver.rate_max) + ' ' + unit + "/s";
+  if (driver.period > 0)
+    text += ", its command read every " + format_number(1000 * driver.period) + " ms";
+  return text;
 }
 
 DriverOptions make_driver(const TrackSettings& settings, const Damper& damper) {
@@ -223,7 +242,7 @@ int run_track(const TrackSettings& settings, Console& console) {
   const DriverOptions options = make_driver(settings, damper);
   const Driver driver(options);
   const Task task = make_task(settings, *damper.model, options, console);
-  warn_beyond_data(damper, task.motion, console);
+  warn_beyond_data(damper, options, task.motion, console);
 
   const std::vector<TrackedScheme> tracked = track_all(settings, damper, driver, task, console);
 
@@ -234,15 +253,12 @@ int run_track(const TrackSettings& settings, Console& console) {
       return kNotUsable;
     }
 
-  // The limits of the coil are part of the result, so they stand above the table.
-  console.print(
-      '\n' + console.bold(damper.name) + ", " + format_number(options.current_min) + " ... " +
-      format_number(options.current_max) + ' ' + to_string(damper.drive_unit) + ", coil lag " +
-      (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") + '\n' +
-      paragraph("Wanted force: " + task.description + ", span " +
-                    format_number(tracked.front().report.span) + " N",
-                static_cast<std::size_t>(console.width())) +
-      '\n');
+  console.print('\n' + console.bold(damper.name) + ", " +
+                coil_text(options, to_string(damper.drive_unit)) + '\n' +
+                paragraph("Wanted force: " + task.description + ", span " +
+                              format_number(tracked.front().report.span) + " N",
+                          static_cast<std::size_t>(console.width())) +
+                '\n');
   console.print(table_of(tracked, console.width()));
 
   if (!settings.folder.empty())

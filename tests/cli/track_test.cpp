@@ -60,9 +60,12 @@ TEST_CASE("track: a recording's motion and force, a model file, curves and a pic
   // The model's data are slower than this motion. The last column of numbers keeps its title.
   const ProgramResult fast =
       run_program("COLUMNS=50 " + program_path() + " track " + results +
-                  "/models/bingham.json --inverse numeric --duration 1 --amplitude 100");
+                  "/models/bingham.json --inverse numeric --duration 1 --amplitude 100 "
+                  "--current-max 9 --rate-limit 50 --period 0.002");
   CAPTURE(fast.output);
   CHECK(contains(fast.output, "% of the time the velocity is outside the model's range"));
+  CHECK(contains(fast.output, "the coil gets up to 9 V, beyond the model's "));
+  CHECK(contains(fast.output, ", at most 50 V/s, its command read every 2 ms\n"));
   CHECK(contains(fast.output, "time out  at limit\n"));
 }
 
