@@ -35,7 +35,7 @@ constexpr std::string_view kCompareExample =
     "# Two models over recordings that neither has seen:\n"
     "dashpot compare new-recordings/ results/models/tanh_kwok.json results/models/anfis.json\n"
     "\n"
-    "# Two models alone, on sines over the range that both know:\n"
+    "# Two models alone, on sines over the range of the first:\n"
     "dashpot compare old.json new.json";
 
 bool is_model_file(const std::string& path) {

@@ -70,6 +70,23 @@ TEST_CASE("compare: models over recordings, with fit; a warning where these taug
   CHECK(contains(seen.output, "was taught by 8 records"));
 }
 
+TEST_CASE("compare says where recordings leave the range that a model knows") {
+  const Campaigns& all = campaigns();
+  const TemporaryFolder folder;
+  const std::string firm = (folder.path() / "firm").string();
+  REQUIRE(run_dashpot("bench --motions 20x0.4,20x1 --levels 1,2 --cycles 4 --sample-rate 200 "
+                      "--output " +
+                      firm)
+              .exit_code == 0);
+  const std::string words = "compare " + firm + " " + all.models + "/bingham.json";
+  const ProgramResult result = run_dashpot(words);
+  CAPTURE(result.output);
+  CHECK(contains(result.output, "bingham: 50 % of the samples have a voltage outside"));
+  const Value json = parse_json(stdout_of_dashpot(words + " --json").output, "stdout");
+  const Value& other = json.find("others")->items().front();
+  CHECK(other.find("outside_domain")->items().front().find("quantity")->as_string() == "voltage");
+}
+
 TEST_CASE("compare: models alone move over the range of the first") {
   const Campaigns& all = campaigns();
   const ProgramResult result =

@@ -56,6 +56,7 @@ ComparedThing run_model(const std::string& name, const ModelFile& file, const Da
 
   // Recordings have an offset of the load cell each; sines of the bench have none.
   ComparedThing thing{.name = name, .dataset = dataset, .is_model = true};
+  thing.beyond = extrapolations(file, dataset);
   Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit,
                                    {.offset = is_measured ? OffsetMode::Record : OffsetMode::None,
                                     .known_offsets = {},

@@ -421,11 +421,14 @@ Document comparison_document(const ComparisonInput& input) {
       section.tables.push_back(std::move(forces));
     if (DocumentTable numbers = number_table(levels, unit); !numbers.rows.empty())
       section.tables.push_back(std::move(numbers));
+    for (const Extrapolation& beyond : things[k].beyond)
+      section.remarks.push_back(things[k].name + ": " + describe(beyond));
     if (!section.tables.empty()) document.sections.push_back(std::move(section));
     others.push_back(Value::object(
         {{"name", things[k].name},
          {"is_model", things[k].is_model},
          {"records_seen", things[k].seen},
+         {"outside_domain", to_json(things[k].beyond)},
          {"fit_percent",
           things[k].evaluation ? number_json(things[k].evaluation->pooled.fit) : Value()},
          {"rmse_N",

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dashpot/evaluate.h"
+#include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/record/characterise.h"
 #include "dashpot/report/document.h"
 
@@ -18,6 +19,7 @@ struct ComparedThing {
   /// Of a model that was run over recordings: its errors there.
   std::optional<Evaluation> evaluation = {};
   std::size_t seen = 0;  ///< of the records that it was run over, how many its fit has seen
+  std::vector<Extrapolation> beyond = {};  ///< where these leave the range that it was fitted on
 };
 
 struct ComparisonInput {
