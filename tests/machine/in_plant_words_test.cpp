@@ -65,6 +65,11 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
   CHECK(contains(refused(with("quarter_car", "quartercar")), "did you mean 'quarter_car'"));
   CHECK(contains(refused(with("  unsprung_mass: 40 kg\n", "")),
                  "says nothing of unsprung_mass (wheel and axle); its value in kg, or 'unknown'"));
+  CHECK(contains(refused(with("  unsprung_mass: 40 kg\n  spring_stiffness: 20 N/mm\n", "")),
+                 "says nothing of unsprung_mass (wheel and axle), spring_stiffness (of the "
+                 "suspension); their values in kg, N/m, or 'unknown'"));
+  CHECK(contains(refused(with("current: coil", "current: 1 V")),
+                 "'1 V' is a level in V, not in A; 'voltage: 1 V'"));
   CHECK(contains(refused(with("40 kg", "40 m")), "unsprung_mass"));
   CHECK(contains(refused(with("40 kg", "-1 kg")), "between"));
   CHECK(contains(refused(with("to: 0.5 t", "to: 200 kg")), "its range 300 ... 200 is none"));
