@@ -122,7 +122,7 @@ TEST_CASE("a plant's recording counts what the plant says of its channels") {
       read_in_plant_setup("oscillator,mass=1,stiffness=100,force=push,acceleration=a,current=coil");
   const auto read = [&](const std::string& head) {
     const PlantRecording recording = read_plant_recording(
-        folder.write("ride.csv", head + "\n0,1,1,1\n1,2,2,1\n2,3,3,1\n"), setup.channels());
+        folder.write("ride.csv", head + "\n0,1,1,1\n0.1,2,2,1\n0.2,3,3,1\n"), setup.channels());
     require_units(setup, recording);
     return recording;
   };
@@ -157,5 +157,10 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
   CHECK(contains(wrong("level,push\n0,1\n1,2\n2,4\n"), "has no column of time"));
   CHECK(contains(wrong("time,level,push\n0,1,1\n1,2,2\n5,4,3\n"), "are not uniform"));
   CHECK(contains(wrong("time,level,push\n0,1,1\n1,x,2\n2,4,3\n"), "'x', not a number"));
+  CHECK(contains(wrong("t,level,push\n0,1,1\n2,2,2\n4,4,3\n"),
+                 "time has no unit and steps of 2, which are no seconds of a plant; name the "
+                 "column 't [ms]'"));
+  CHECK(without_units({&recording, 1}) ==
+        "push: no unit in the columns' names, taken as SI; name them as 'push [mm]'");
   CHECK(contains(wrong("time,level [smoot],push\n0,1,1\n1,1,2\n2,4,3\n"), "smoot"));
 }
