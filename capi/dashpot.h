@@ -166,8 +166,9 @@ typedef struct dashpot_table {
 
 /// Recordings that dashpot_recordings_add fills.
 DASHPOT_API dashpot_status dashpot_recordings_new(dashpot_recordings** recordings);
-/// Copies the samples. The force's sign is taken as it is, resisting extension positive. On failure
-/// nothing is added.
+/// Copies the samples. The force's sign is taken as it is, resisting extension positive. A gap in
+/// time of more than 5 median steps ends one recording and begins the next, NAME, stretch 1, 2 ...
+/// On failure nothing is added.
 DASHPOT_API dashpot_status dashpot_recordings_add(dashpot_recordings* recordings,
                                                   const dashpot_table* table);
 DASHPOT_API size_t dashpot_recordings_count(const dashpot_recordings* recordings);

@@ -7,6 +7,8 @@
 #include "dashpot/base/units.h"
 #include "dashpot/record/channel_names.h"
 #include "dashpot/record/conditions.h"
+#include "dashpot/record/drive_levels.h"
+#include "dashpot/record/stretches.h"
 #include "handles.h"
 #include "status.h"
 #include "words.h"
@@ -15,6 +17,8 @@ using namespace dashpot;
 using namespace dashpot::capi;
 
 namespace {
+
+constexpr const char* kStatedIn = "the arrays";
 
 RawColumn copy_column(const dashpot_named_column& named, std::size_t samples) {
   require(named.name, "a column's name");
@@ -52,21 +56,27 @@ void add(dashpot_recordings& recordings, const dashpot_table& table) {
   if (std::ranges::find(records, name, &Record::name) != records.end())
     throw Error(name, "is there already", "a name of its own for every recording");
 
-  // The arrays are read as a file is, the force's sign stated beforehand.
+  // The arrays are read as a file is, the force's sign stated beforehand: a gap in time ends one
+  // record and begins the next.
   RawTable raw = copy_table(table, name);
   const FileStatement statement = statement_of(raw, table.conditions);
-  BuiltRecord built = build_record(std::move(raw), {.statement = &statement,
-                                                    .stated_in = "the arrays",
-                                                    .name = name,
-                                                    .level = {},
-                                                    .as_given = true});
-  if (!built.refusal.empty()) throw Error(name, built.refusal);
+  std::vector<RawTable> stretches = usable_stretches(std::move(raw), statement, kStatedIn);
+  std::vector<BuildContext> contexts(stretches.size(), {.statement = &statement,
+                                                        .stated_in = kStatedIn,
+                                                        .name = name,
+                                                        .level = {},
+                                                        .as_given = true});
+  if (stretches.size() > 1)
+    for (std::size_t k = 0; k < contexts.size(); ++k)
+      contexts[k].name += ", stretch " + std::to_string(k + 1);
+  std::vector<BuiltRecord> all = build_records(std::move(stretches), contexts);
+  if (!all.front().refusal.empty()) throw Error(name, all.front().refusal);
 
   // One model has one drive: all recordings are driven in the same unit.
   // Without current and voltage it is taken as of one constant, unknown drive.
-  const DriveUnit drive_unit = built.record.find("current")   ? DriveUnit::Ampere
-                               : built.record.find("voltage") ? DriveUnit::Volt
-                                                              : DriveUnit::None;
+  const DriveUnit drive_unit = all.front().record.find("current")   ? DriveUnit::Ampere
+                               : all.front().record.find("voltage") ? DriveUnit::Volt
+                                                                    : DriveUnit::None;
   const DriveUnit before = recordings.dataset.drive_unit;
   const auto words = [](DriveUnit unit) {
     return unit == DriveUnit::None ? "no current or voltage" : "a drive in " + to_string(unit);
@@ -74,12 +84,14 @@ void add(dashpot_recordings& recordings, const dashpot_table& table) {
   if (!records.empty() && drive_unit != before)
     throw Error(name, "has " + words(drive_unit), "the recordings before it have " + words(before));
   recordings.dataset.drive_unit = drive_unit;
-  if (drive_unit == DriveUnit::None) built.record.drive_level = 0;
 
   // Only a recording that was accepted is kept; on an error nothing is added.
-  recordings.name_rests.push_back(split_name(name).rest);
-  std::ranges::move(built.readings, std::back_inserter(recordings.dataset.readings));
-  records.push_back(std::move(built.record));
+  for (BuiltRecord& built : all) {
+    if (drive_unit == DriveUnit::None) built.record.drive_level = 0;
+    recordings.name_rests.push_back(split_name(name).rest);
+    std::ranges::move(built.readings, std::back_inserter(recordings.dataset.readings));
+    records.push_back(std::move(built.record));
+  }
 }
 
 const Record& record_at(const dashpot_recordings* recordings, std::size_t place) {
@@ -111,7 +123,9 @@ Dataset usable_dataset(const dashpot_recordings* recordings) {
   require(recordings, "recordings");
   Dataset dataset = recordings->dataset;
   if (dataset.records.empty()) throw Error("recordings", "there are none", "add one at least");
-  if (recordings->takes_arrays) infer_conditions(dataset.records, recordings->name_rests);
+  if (!recordings->takes_arrays) return dataset;
+  find_drive_levels(dataset.records);
+  infer_conditions(dataset.records, recordings->name_rests);
   return dataset;
 }
 

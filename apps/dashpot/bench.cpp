@@ -72,6 +72,8 @@ int run_family(const BenchSettings& settings, Console& console) {
   const FamilyBench made =
       bench_family(settings.family, settings.campaign, settings.folder, console.command_line());
 
+  for (const std::string& warning : made.warnings) console.warn(warning);
+
   // What was recorded, where it lies, and the command that fits a family to it.
   console.print(std::to_string(made.drawings) + " drawings, " + std::to_string(made.dampers) +
                 " dampers, " + std::to_string(made.records) + " records\n\nRecordings  " +
@@ -99,6 +101,10 @@ int run_bench(BenchSettings& settings, Console& console) {
   require_no_plant(settings.in_plant);
 
   // One option for what scatters, builds of drawings or dampers of a line.
+  if (settings.scatter >= 1)
+    throw UsageError("--scatter",
+                     "is " + format_number(settings.scatter) + ", a share of 1 or more",
+                     "5 % is 0.05");
   if (std::isfinite(settings.scatter))
     settings.family.scatter = settings.line.scatter = settings.scatter;
   if (!settings.family.drawings.empty()) return run_family(settings, console);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "dashpot/base/escape.h"
@@ -139,6 +140,29 @@ std::vector<BuiltDamper> builds_of(const std::vector<FamilyDrawing>& drawings,
   return built;
 }
 
+/// Which drawings were moved further than they are drawn for.
+std::vector<std::string> beyond_stroke(const std::vector<BuiltDamper>& built) {
+  constexpr double kMillimetres = 1e3, kNoise = 1.01;
+  std::map<std::string, double> furthest;  // m, from end to end
+  std::map<std::string, double> strokes;
+  for (const BuiltDamper& damper : built)
+    for (const Record& record : damper.campaign.records) {
+      const auto [low, high] = std::ranges::minmax(record.channel("displacement").samples);
+      const double stroke = damper.drawing->damper.stroke;
+      if (high - low <= kNoise * stroke) continue;
+      double& most = furthest[damper.drawing->name];
+      most = std::max(most, high - low);
+      strokes[damper.drawing->name] = stroke;
+    }
+
+  std::vector<std::string> warnings;
+  for (const auto& [name, most] : furthest)
+    warnings.push_back(name + " was moved over " + format_number(kMillimetres * most, 3) +
+                       " mm; its stroke is drawn as " +
+                       format_number(kMillimetres * strokes[name], 3) + " mm");
+  return warnings;
+}
+
 std::string manifest_of(const std::vector<BuiltDamper>& built) {
   std::string text = "file,damper,name,build,motion,current_A\n";
   for (const BuiltDamper& damper : built)
@@ -227,7 +251,7 @@ FamilyBench bench_family(const FamilyBenchSettings& family, const CampaignSettin
           built[k].drawing->name + ", build " + std::to_string(built[k].build) + ", " + record.name;
   });
 
-  FamilyBench made{drawings.size(), built.size(), 0, folder / "dataset.yaml"};
+  FamilyBench made{drawings.size(), built.size(), 0, folder / "dataset.yaml", beyond_stroke(built)};
   for (const BuiltDamper& damper : built)
     for (const Record& record : damper.campaign.records) {
       write_file(folder / recording_file(record),

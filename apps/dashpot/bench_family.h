@@ -25,6 +25,7 @@ std::vector<Option> family_bench_options(FamilyBenchSettings& settings);
 struct FamilyBench {
   std::size_t drawings = 0, dampers = 0, records = 0;
   std::filesystem::path statement;
+  std::vector<std::string> warnings;  ///< drawings that were moved beyond their stroke
 };
 FamilyBench bench_family(const FamilyBenchSettings& family, const CampaignSettings& campaign,
                          const std::filesystem::path& folder, const std::string& command);

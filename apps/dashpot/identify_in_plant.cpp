@@ -318,6 +318,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   std::vector<PlantRecording> recordings;
   for (const std::string& file : files)
     recordings.push_back(read_plant_recording(file, setup.channels()));
+  if (const std::string note = without_units(recordings); !note.empty()) console.note(note);
   prepare_results(settings.results);
 
   // Each model in turn, the best first.

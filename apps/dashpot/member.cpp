@@ -115,6 +115,12 @@ BuildReport measured(const FamilyModel& member, const MemberSettings& settings, 
         "{}: not one build in a hundred lies so far from its drawing ({} standard deviations): a "
         "recording of another damper, or a drawing that is not this damper's",
         settings.recording, format_number(std::sqrt(report.distance), 3)));
+  else if (!report.is_told())
+    console.warn(fmt::format(
+        "{}: what this build leaves is {} times what the family usually leaves of a recording, so "
+        "that it says nothing of the build: a recording of another damper, or a drawing that is "
+        "not this damper's",
+        settings.recording, format_number(report.left_of_usual, 3)));
   return report;
 }
 

@@ -139,7 +139,7 @@ PlantRecording read_day(const NewDay& day, const InPlantSetup& setup, const Watc
 /// The plant as the state has it, or as the first reference days show it.
 WatchedPlant prepared(const ModelFile& file, std::shared_ptr<const DamperModel> damper,
                       const InPlantSetup& setup, const std::vector<NewDay>& todo,
-                      const WatchOptions& options, DayState& state) {
+                      const WatchOptions& options, DayState& state, Console& console) {
   if (state.found()) {
     const Value found = parse_json(*state.found(), "state");
     return watched_again(std::move(damper), file.domain, setup, found, options);
@@ -149,6 +149,7 @@ WatchedPlant prepared(const ModelFile& file, std::shared_ptr<const DamperModel> 
   std::vector<PlantRecording> first;
   for (std::size_t d = 0; d < std::min(kPreparationDays, todo.size()); ++d)
     first.push_back(read_day(todo[d], setup, options));
+  if (const std::string note = without_units(first); !note.empty()) console.note(note);
   WatchedPlant watched = watched_plant(std::move(damper), file.domain, setup, first, options);
   state.keep_found(watched);
   return watched;
@@ -205,7 +206,8 @@ int run_watch(const WatchSettings& settings, Console& console) {
   std::shared_ptr<const DamperModel> damper = std::move(file.model);
 
   // The new days, then the charts of all.
-  const WatchedPlant watched = prepared(file, std::move(damper), setup, todo, options, state);
+  const WatchedPlant watched =
+      prepared(file, std::move(damper), setup, todo, options, state, console);
   add_days(watched, todo, options, state, console);
   if (state.days().empty()) throw Error("recordings", "none of them can be used");
   const std::vector<WatchedQuantity> quantities = watch_charts(watched, state.days(), options);

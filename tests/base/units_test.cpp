@@ -14,6 +14,13 @@ static void check_factor(const char* text, double factor, Dimension dimension) {
   CHECK(unit->dimension == dimension);
 }
 
+TEST_CASE("units of data sheets of fluids") {
+  CHECK_CLOSE(require_unit("cP", "").factor, 1e-3, 1e-15, 0);
+  CHECK(require_unit("cP", "").dimension == require_unit("Pa*s", "").dimension);
+  CHECK_CLOSE(require_unit("kOe", "").factor, 79577.4715, 1e-4, 0);
+  CHECK(require_unit("Oe", "").dimension == require_unit("kA/m", "").dimension);
+}
+
 TEST_CASE("units in all their spellings") {
   check_factor("mm", 1e-3, {0, 1});
   check_factor("cm/s", 1e-2, {0, 1, -1});

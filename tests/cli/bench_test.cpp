@@ -149,6 +149,7 @@ TEST_CASE(
       campaign);
   CHECK_MESSAGE(benched.exit_code == 0, benched.output);
   CHECK(contains(benched.output, "4 drawings, 8 dampers, 16 records"));
+  CHECK(!contains(benched.output, "stroke"));
   const ProgramResult inspected = run_dashpot("inspect " + campaign);
   CHECK(contains(inspected.output, "as drawn"));
 
@@ -208,6 +209,11 @@ TEST_CASE("bench --family: what cannot be benched is refused") {
   refused("--family " + good + " --drive PRBS", "stated per record");
   refused("--family " + good + " --damper mr1", "beside a family");
   refused("--family " + good + " --asymmetry 2", "between -1 and 1");
+  refused("--family " + good + " --scatter 5", "5 % is 0.05");
+  CHECK(contains(run_dashpot("bench --family " + good + " --levels 0 --motions 60x0.6 -o " +
+                             (folder.path() / "far").string())
+                     .output,
+                 "good was moved over 120 mm; its stroke is drawn as 50 mm"));
   refused("--fluid 140CG", "--family");
   refused("--family " + (folder.path() / "none").string(), "none");
   CHECK(!std::filesystem::exists(folder.path() / "out"));

@@ -50,6 +50,20 @@ goals: [{maximise: dynamic_range}, {minimise: time constant}]
   CHECK(parsed.following[0].constant == 0.02);
 }
 
+TEST_CASE("design request: turns are whole where nothing else is said") {
+  const auto turns = [](const std::string& damper, const std::string& range) {
+    return parse_request(
+               "damper: " + damper + "\nvary: {turns: " + range +
+                   "}\nconstraints: [{quantity: force, min: 1}]\ngoals: [{minimise: mass}]\n",
+               "request.yaml")
+        .variables[0];
+  };
+  CHECK(turns("passenger_car", "{from: 40.5, to: 300}").from == 41);
+  CHECK(turns("passenger_car", "{from: 40.5, to: 300}").step == 1);
+  CHECK(turns("passenger_car", "{from: 40, to: 300, step: 2.5}").step == 2.5);
+  CHECK(turns("family_prototype", "{from: 3000, to: 4000}").step == 0);  // of the paper's circuit
+}
+
 TEST_CASE("design request: what is wrong is named") {
   const auto says = [](const std::string& text, const std::string& part) {
     const std::string message = refusal(text);

@@ -181,6 +181,20 @@ TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by
   CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.2, 0);
 }
 
+TEST_CASE("in plant: a sensor that is the other way round is told" * doctest::test_suite("long")) {
+  InPlantSetup setup = oscillator_setup();
+  setup.sensors.push_back({.channel = "a", .place = {PlantQuantity::Acceleration, 0}, .noise = 1});
+  setup.sensors[0].noise = 2e-5;
+  PlantRecording recording = short_recording();
+  for (double& value : recording.channels[2].samples) value = -value;
+  const InPlantReport report =
+      identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 3, .grade = ""});
+  REQUIRE(report.model);
+  CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    return contains(warning, "truth, a: the model is ") && contains(warning, "are its sign");
+  }));
+}
+
 TEST_CASE("in plant: what cannot be told apart is named, before and after the fit" *
           doctest::test_suite("long")) {
   InPlantSetup setup = oscillator_setup();

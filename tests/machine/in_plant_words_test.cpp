@@ -65,6 +65,11 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
   CHECK(contains(refused(with("quarter_car", "quartercar")), "did you mean 'quarter_car'"));
   CHECK(contains(refused(with("  unsprung_mass: 40 kg\n", "")),
                  "says nothing of unsprung_mass (wheel and axle); its value in kg, or 'unknown'"));
+  CHECK(contains(refused(with("  unsprung_mass: 40 kg\n  spring_stiffness: 20 N/mm\n", "")),
+                 "says nothing of unsprung_mass (wheel and axle), spring_stiffness (of the "
+                 "suspension); their values in kg, N/m, or 'unknown'"));
+  CHECK(contains(refused(with("current: coil", "current: 1 V")),
+                 "'1 V' is a level in V, not in A; 'voltage: 1 V'"));
   CHECK(contains(refused(with("40 kg", "40 m")), "unsprung_mass"));
   CHECK(contains(refused(with("40 kg", "-1 kg")), "between"));
   CHECK(contains(refused(with("to: 0.5 t", "to: 200 kg")), "its range 300 ... 200 is none"));
@@ -117,7 +122,7 @@ TEST_CASE("a plant's recording counts what the plant says of its channels") {
       read_in_plant_setup("oscillator,mass=1,stiffness=100,force=push,acceleration=a,current=coil");
   const auto read = [&](const std::string& head) {
     const PlantRecording recording = read_plant_recording(
-        folder.write("ride.csv", head + "\n0,1,1,1\n1,2,2,1\n2,3,3,1\n"), setup.channels());
+        folder.write("ride.csv", head + "\n0,1,1,1\n0.1,2,2,1\n0.2,3,3,1\n"), setup.channels());
     require_units(setup, recording);
     return recording;
   };
@@ -152,5 +157,10 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
   CHECK(contains(wrong("level,push\n0,1\n1,2\n2,4\n"), "has no column of time"));
   CHECK(contains(wrong("time,level,push\n0,1,1\n1,2,2\n5,4,3\n"), "are not uniform"));
   CHECK(contains(wrong("time,level,push\n0,1,1\n1,x,2\n2,4,3\n"), "'x', not a number"));
+  CHECK(contains(wrong("t,level,push\n0,1,1\n2,2,2\n4,4,3\n"),
+                 "time has no unit and steps of 2, which are no seconds of a plant; name the "
+                 "column 't [ms]'"));
+  CHECK(without_units({&recording, 1}) ==
+        "push: no unit in the columns' names, taken as SI; name them as 'push [mm]'");
   CHECK(contains(wrong("time,level [smoot],push\n0,1,1\n1,1,2\n2,4,3\n"), "smoot"));
 }

@@ -167,6 +167,55 @@ TEST_CASE("estimate_day: the wear and the load of a day, with deviations that ho
   CHECK_CLOSE(day.plant[0], 11, 0.02, 0);
 }
 
+TEST_CASE("estimate_day: what would pass for a change of the damper is refused") {
+  WatchedPlant watched = watched_oscillator({"force"});
+  watched.setup.unknown.front().about = 10.0;
+  watched.sample_time = 0.005;
+  const PlantRecording day = oscillator_day(11, 0, 5);
+  const auto refused = [&](const auto& change) {
+    PlantRecording other = day;
+    change(other);
+    return message_of([&] { estimate_day(watched, other); });
+  };
+  const auto still = [](const std::string& name) {
+    return [name](PlantRecording& other) {
+      for (Channel& channel : other.channels)
+        if (channel.name == name) std::ranges::fill(channel.samples, 0.0);
+    };
+  };
+  CHECK(contains(refused(still("push")), "day, push: is constant"));
+  CHECK(contains(refused(still("x")), "day, x: is constant"));
+  CHECK(contains(refused([](PlantRecording& other) { other.sample_time = 0.01; }),
+                 "is sampled every 10 ms, the first days every 5 ms"));
+  CHECK(contains(refused([](PlantRecording& other) {
+                   other.samples = 300;
+                   for (Channel& channel : other.channels) channel.samples.resize(300);
+                 }),
+                 "is 1.5 s long"));
+
+  // A load beyond the range of what is expected makes the wear another's.
+  watched.setup.unknown.front().upper = 10.5;
+  const DayEstimate heavy = estimate_day(watched, day);
+  CHECK_FALSE(heavy.converged);
+  CHECK(at_an_end(watched, heavy) == "mass");
+}
+
+TEST_CASE("watch: a day without motion in a state of before spoils no other") {
+  const WatchedPlant watched = watched_oscillator({"force"});
+  std::vector<WatchedDay> days;
+  for (int d = 0; d < 30; ++d)
+    days.push_back({.estimate = {.name = "day",
+                                 .wear = {0.01 * (d % 3)},
+                                 .wear_deviation = {0.01},
+                                 .plant = {10},
+                                 .plant_deviation = {0.1},
+                                 .excitation = d == 25 ? 0 : 1 + 0.1 * (d % 5),
+                                 .converged = true},
+                    .known = {}});
+  const auto charts = watch_charts(watched, days, {.wears = {"force"}});
+  CHECK(std::isfinite(charts.front().chart.points.back().sum));
+}
+
 TEST_CASE("watch: what was found and the days come back as they were kept") {
   WatchedPlant watched = watched_oscillator({"force"});
   watched.setup.unknown.front().about = 10.5;

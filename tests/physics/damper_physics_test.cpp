@@ -138,6 +138,9 @@ TEST_CASE("warnings say what a design should not do") {
   CHECK(all.find("of its room with copper") != std::string::npos);
   CHECK(all.find("saturation") != std::string::npos);
   CHECK(all.find("A/mm^2") != std::string::npos);
+  CHECK(all.find("turns") == std::string::npos);
+  damper.turns = 150.5;
+  CHECK(contains(physics_warnings(damper, p).front(), "turns is 150.5, which no coil has"));
 }
 
 TEST_CASE("a fluid and a steel of one's own stand in a written description and read back") {

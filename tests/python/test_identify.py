@@ -8,6 +8,7 @@ import sys
 import textwrap
 import threading
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -105,6 +106,27 @@ class Identification(InFolder):
         self.assertIn("<html", (self.folder / "report.html").read_text())
         with self.assertRaises(dashpot.Error):
             ranking.save_report("report.pdf")
+
+    def test_a_rate_that_nobody_said_is_told(self):
+        model = dashpot.identify(bench(), "bingham", "current", starts=1).best
+        X = recording(0.5)[0]
+        with self.assertWarnsRegex(UserWarning, "rows are taken as 0.005 s apart, as in the model's fit"):
+            force = model.predict(X[:, 1:])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            np.testing.assert_array_equal(model.predict(X[:, 1:], sample_time=0.005), force)
+            np.testing.assert_allclose(model.predict(X), force)
+
+    def test_a_gap_in_time_ends_a_recording(self):
+        X, y = recording(0.5)
+        t, x, v, i = X.T
+        table = {"time": t + 2 * (t > 1), "displacement": x, "velocity": v, "current": i, "force": y}
+        single = {name: samples.astype(np.float32) for name, samples in table.items()}
+        for columns in (table, single):
+            data = dashpot.Recordings().add(columns)
+            self.assertEqual([data[k]["name"] for k in range(len(data))],
+                             ["recording 1, stretch 1", "recording 1, stretch 2"])
+            self.assertEqual([data[k]["sample_time"] for k in range(len(data))], [0.005, 0.005])
 
     def test_options_that_cannot_be(self):
         for options in ({"models": "bingam"}, {"starts": 0}, {"fix": "alpha=1"}, {"leave_out": "everything"}):

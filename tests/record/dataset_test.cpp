@@ -447,3 +447,145 @@ TEST_CASE("slow motions say nothing of inertia; a mass belongs to the force") {
                "moving_mass: 1}\n      force: F_N\n");
   CHECK(has(message_of([&] { load(folder.path()); }), "it belongs to force"));
 }
+
+namespace {
+
+/// Tests of 3 s one below the other in one table, each with its amplitude in mm and its current in
+/// A, the damper's stroke about `middle` mm. Between them time goes on by `pause` s; the damper
+/// rests for as long where the rest `is_recorded`.
+std::string tests_csv(const std::vector<std::pair<double, double>>& tests, double middle,
+                      double pause, bool is_recorded) {
+  std::string text = "t_s,x_mm,F_N,I_A\n";
+  double start = 0;
+  const auto add = [&](double t, double x, double force, double current) {
+    char line[96];
+    std::snprintf(line, sizeof line, "%.2f,%.6f,%.6f,%.5f\n", t, middle + x, force, current);
+    text += line;
+  };
+  for (const auto& [amplitude, current] : tests) {
+    const double w = 2 * M_PI;
+    for (int k = 0; k < 300; ++k, start += 0.01)
+      add(start, amplitude * std::sin(w * k / 100), amplitude * w * std::cos(w * k / 100), current);
+    for (double t = 0; is_recorded && t < pause - 1e-9; t += 0.01) add(start + t, 0, 0, current);
+    start += pause;
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("stretches of one recording share the centre of its stroke and the force's sign") {
+  // The first stretch lies 5 mm below the second.
+  const TemporaryFolder folder;
+  std::string text = "t_s,x_mm,F_N\n";
+  const double w = 2 * M_PI;
+  for (int k = 0; k < 600; ++k) {
+    char line[96];
+    const double t = k / 100.0 + (k < 300 ? 0 : 2);
+    std::snprintf(line, sizeof line, "%.2f,%.6f,%.6f\n", t,
+                  75 + (k < 300 ? -2.5 : 2.5) + 10 * std::sin(w * t),
+                  -10 * w * std::cos(w * t) * (k < 300 ? 1 : 0.001) + (k < 300 ? 0 : 0.1));
+    text += line;
+  }
+  folder.write("a_1A.csv", text);
+  const Dataset dataset = load(folder.path());
+  REQUIRE(dataset.records.size() == 2);
+  CHECK_CLOSE(mean_of(dataset.records[0].channel("displacement")), -2.5e-3, 1e-9, 0);
+  CHECK_CLOSE(mean_of(dataset.records[1].channel("displacement")), 2.5e-3, 1e-9, 0);
+  for (const Record& record : dataset.records)
+    CHECK(has(record.channel("force").origin, "sign flipped"));
+}
+
+TEST_CASE("tests one below the other with gaps in time: levels may be listed, one per stretch") {
+  const TemporaryFolder folder;
+  folder.write("run.csv", tests_csv({{10, 0}, {10, 0.5}, {10, 1}}, 0, 3, false));
+  CHECK(load(folder.path()).records.at(2).drive_level == 1);
+
+  const auto levels = [&](const std::string& words) {
+    folder.write("dataset.yaml",
+                 "files:\n  - match: run.csv\n    channels: {displacement: {column: x_mm, unit: "
+                 "mm}, force: F_N}\n    level: " +
+                     words + "\n");
+    std::vector<double> found;
+    for (const Record& record : load(folder.path()).records) found.push_back(*record.drive_level);
+    return found;
+  };
+  CHECK(levels("[0, 0.7, 1.4]") == std::vector<double>{0, 0.7, 1.4});
+  CHECK(levels("[2]") == std::vector<double>{2, 2, 2});
+  CHECK(has(message_of([&] { levels("[0, 0.7]"); }),
+            "'level' lists 2 levels, and gaps in the time of run.csv leave 3 stretches"));
+}
+
+TEST_CASE("tests with recorded rests between them are told, and roles make records of them") {
+  const TemporaryFolder folder;
+  folder.write("run.csv", tests_csv({{10, 0}, {5, 0.5}, {20, 1}}, 0, 2, true));
+  const Dataset whole = load(folder.path());
+  REQUIRE(whole.records.size() == 1);
+  CHECK(has(describe(whole), "the damper rests for up to 2 s between 3 motions"));
+  CHECK_FALSE(whole.records[0].drive_level);
+
+  folder.write("dataset.yaml",
+               "files:\n  - match: run.csv\n    channels: {displacement: {column: x_mm, unit: mm}, "
+               "force: F_N, current: I_A}\n    roles:\n"
+               "      - {role: training, from: 0, to: 3}\n"
+               "      - {role: training, from: 5, to: 8}\n"
+               "      - {role: left_out, from: 10, to: 13}\n");
+  const Dataset parts = load(folder.path());
+  REQUIRE(parts.records.size() == 3);
+  for (const double level : {0.0, 0.5, 1.0})
+    CHECK(std::ranges::count(parts.records, level, &Record::drive_level) == 1);
+
+  // Neither a single test nor a slow one that dwells where it turns is several.
+  folder.write("dataset.yaml", "files:\n  - match: run.csv\n");
+  folder.write("run.csv", tests_csv({{10, 1}}, 0, 2, true));
+  CHECK_FALSE(has(describe(load(folder.path())), "motions, taken as one record"));
+  std::string slow = "t_s,x_mm,F_N\n";
+  for (int k = 0; k < 3000; ++k)
+    slow += format_number(0.1 * k, 6) + "," + format_number(10 * std::sin(0.06 * k), 6) + "," +
+            format_number(50 * std::cos(0.06 * k), 6) + "\n";
+  folder.write("run.csv", slow);
+  CHECK_FALSE(has(describe(load(folder.path())), "motions, taken as one record"));
+}
+
+TEST_CASE("levels of a recorded current go with the largest of all records") {
+  // A damper of 25 mA, with a sensor's noise of +-0.05 mA.
+  const TemporaryFolder folder;
+  for (const double level : {0.0, 2.5, 5.0, 25.0}) {
+    std::string text = "t_s,x_mm,F_N,I_mA\n";
+    for (int k = 0; k < 200; ++k)
+      text += format_number(0.01 * k, 6) + "," + format_number(10 * std::sin(0.0628 * k), 6) + "," +
+              format_number(500 * std::cos(0.0628 * k), 6) + "," +
+              format_number(level + (k % 2 ? 0.05 : -0.05), 6) + "\n";
+    folder.write("run" + format_number(10 * level) + ".csv", text);
+  }
+  const Dataset dataset = load(folder.path());
+  REQUIRE(dataset.records.size() == 4);
+  for (const double level : {0.0, 0.0025, 0.005, 0.025})
+    CHECK(std::ranges::count(dataset.records, level, &Record::drive_level) == 1);
+  CHECK(split(dataset, parse_leave_out("current=0.005"))[0].left_out.size() == 1);
+
+  // A slow swing of 10 mA is no noise of such a sensor.
+  std::string text = "t_s,x_mm,F_N,I_mA\n";
+  for (int k = 0; k < 200; ++k)
+    text += format_number(0.01 * k, 6) + "," + format_number(10 * std::sin(0.0628 * k), 6) + "," +
+            format_number(500 * std::cos(0.0628 * k), 6) + "," +
+            format_number(10 + 5 * std::sin(0.05 * k), 6) + "\n";
+  folder.write("varied.csv", text);
+  const Dataset varied = load(folder.path());
+  CHECK(std::ranges::count_if(varied.records, [](const Record& r) { return !r.drive_level; }) == 1);
+}
+
+TEST_CASE("two columns that could be time: what the message proposes works") {
+  const TemporaryFolder folder;
+  std::string text = "time [s],t_ms,x_mm,F_N\n";
+  for (int k = 0; k < 200; ++k)
+    text += format_number(0.01 * k, 6) + "," + format_number(10 * k + 7, 6) + "," +
+            format_number(10 * std::sin(0.0628 * k), 6) + "," +
+            format_number(500 * std::cos(0.0628 * k), 6) + "\n";
+  const auto path = folder.write("run_1A.csv", text);
+  CHECK(has(message_of([&] { load(path); }),
+            "are both time by their names; state which in a dataset file, as in "
+            "'time: {column: \"time [s]\"}'"));
+  folder.write("dataset.yaml", "files:\n  - match: run_1A.csv\n    time: {column: \"time [s]\"}\n");
+  CHECK(load(folder.path()).records.at(0).sample_time == 0.01);
+}

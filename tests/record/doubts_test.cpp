@@ -69,6 +69,21 @@ TEST_CASE("a displacement that sticks and leaps is told; one that dwells is not"
   CHECK(doubts_about(dwelling).empty());
 }
 
+TEST_CASE("a displacement that dies before the end is told; a motion that ends at rest is not") {
+  Record dead = sound_record();
+  std::vector<double>& x = samples(dead, "displacement");
+  std::fill(x.begin() + 1130, x.end(), x[1130]);
+  CHECK(contains(only_doubt(dead),
+                 "the displacement stands still from 2.26 s to 3.998 s, the end of the record, "
+                 "while the force goes on: the sensor died"));
+
+  Record ends = sound_record();
+  for (const char* name : {"displacement", "force"})
+    std::fill(samples(ends, name).begin() + 1130, samples(ends, name).end(),
+              samples(ends, name)[1130]);
+  CHECK(doubts_about(ends).empty());
+}
+
 TEST_CASE("a clipped force is told with its limit") {
   Record record = sound_record();
   for (double& value : samples(record, "force")) value = std::min(value, 600.0);

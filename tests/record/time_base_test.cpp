@@ -31,6 +31,20 @@ TEST_CASE("stamps within the rounding of their digits are uniform") {
   CHECK(uniform_step(long_test) == 0.001);
 }
 
+TEST_CASE("stamps in single precision are uniform within its resolution") {
+  const auto step = [](std::size_t count, double rate, double off) {
+    std::vector<double> stamps;
+    for (std::size_t k = 0; k < count; ++k)
+      stamps.push_back(static_cast<double>(
+          static_cast<float>(static_cast<double>(k) / rate + (k == count / 2 ? off : 0))));
+    return uniform_step(stamps);
+  };
+  CHECK(step(2500, 500, 0) == 1 / 500.0);
+  CHECK(step(200000, 500, 0) == 1 / 500.0);  // up to 400 s, in steps of 3e-5 s
+  CHECK(step(20000, 2000, 0) == 1 / 2000.0);
+  CHECK(step(2500, 500, 2e-5) == 0);
+}
+
 TEST_CASE("time that does not increase is refused at its line") {
   RawTable table;
   table.file = "run.csv";

@@ -303,6 +303,10 @@ TEST_CASE("a vehicle starts in equilibrium with its dampers' force at rest") {
     return std::string();
   };
   CHECK(contains(told(make_vehicle({.dampers = {path.string()}})), "its force at rest, -220 N"));
+
+  // A force at rest that the current changes is told with its current.
+  VehicleWords words{.dampers = {"kwok2006"}, .current = 0.75};
+  CHECK(contains(told(make_vehicle(words)), "its force at rest at 0.75 A, 43.5 N"));
   CHECK(told(make_vehicle({.dampers = {path.string() + ",f0=0"}})).empty());
   CHECK(told(make_vehicle({.dampers = {"spencer1997,x0=0"}})).empty());
 }

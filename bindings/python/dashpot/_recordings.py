@@ -47,7 +47,8 @@ class Recordings:
         table: a DataFrame or a dict of arrays, whose names tell channel and unit: "velocity" (SI), "x [mm]",
         "F_N"; others are left out. It needs a force, velocity or displacement (velocity is then derived), and
         current or voltage, unless none has one (one constant, unknown drive). sample_time: s between samples, where no column is time. conditions: what was
-        constant, SI: {"gap": 0.001}. Raises Error at what cannot be used; nothing is added then.
+        constant, SI: {"gap": 0.001}. A gap in time (5 median steps) ends one recording and begins the next, ", stretch 1",
+        ", stretch 2" behind their names. Raises Error at what cannot be used; nothing is added then.
         """
         names = table.columns if _frames.is_frame(table) else table
         arrays = {str(name): table[name] for name in names if _core.understand_column(str(name))[0]}

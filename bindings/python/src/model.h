@@ -44,7 +44,7 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
       return py::module_::import("dashpot._frames").attr("predict")(this, x, sample_time, interval);
     const py::array rows = as_float64(x);
     dashpot_motion motion = motion_of(rows);
-    motion.sample_time = seconds(sample_time);
+    motion.sample_time = seconds(sample_time, motion);
     return respond(motion, interval, nullptr, 0);
   }
 
@@ -58,7 +58,7 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
     motion.displacement = columns.add(displacement, "displacement");
     motion.time = columns.add(time, "time");
     motion.samples = columns.samples();
-    motion.sample_time = seconds(sample_time);
+    motion.sample_time = seconds(sample_time, motion);
     if (state.is_none()) return respond(motion, interval, nullptr, 0);
     const Array kept = state_of(state);
     return respond(motion, interval, const_cast<double*>(kept.data()),
@@ -93,9 +93,17 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
     return {std::get<0>(input), std::get<1>(input), std::get<2>(input)};
   }
 
-  /// s; the model's own where none is said.
-  double seconds(const py::object& sample_time) const {
-    return sample_time.is_none() ? info_.sample_time : sample_time.cast<double>();
+  /// s; the model's own where none is said, with a warning where no time tells whether it is that
+  /// of these rows.
+  double seconds(const py::object& sample_time, const dashpot_motion& motion) const {
+    if (!sample_time.is_none()) return sample_time.cast<double>();
+    if (info_.sample_time > 0 && motion.samples > 1 && !motion.time.data) {
+      const std::string text = "neither a time nor a sample_time: the rows are taken as " +
+                               py::repr(py::float_(info_.sample_time)).cast<std::string>() +
+                               " s apart, as in the model's fit; sample_time=... says so";
+      if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+    }
+    return info_.sample_time;
   }
 
   /// The caller's array itself: what is written must be seen.

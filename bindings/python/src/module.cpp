@@ -210,7 +210,7 @@ void bind_model(py::module_& module) {
            "whose\n"
            "columns tell by their names what they are (\"velocity [mm/s]\"); the result is then a "
            "Series.\n"
-           "sample_time: s between rows without a time; None: that of the fit.\n"
+           "sample_time: s between rows without a time; None: that of the fit, with a warning.\n"
            "interval: returns (force, half_width), the model's band being force +- half_width.\n"
            "Raises Error on input that cannot be used, NotUsable where the model diverges.")
       .def("run", &Model::run, arg("velocity"), arg("current"), arg("displacement") = none,

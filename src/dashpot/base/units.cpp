@@ -54,6 +54,8 @@ constexpr Named kUnits[] = {
     {"daN", kForce, 10},
     {"g0", {0, 1, -2}, kStandardGravity},
     {"Pa", kPressure, 1},
+    {"cP", {1, -1, -1}, 1e-3},
+    {"Oe", {0, -1, 0, 1}, 1000 / (4 * kPi)},
     {"bar", kPressure, 1e5},
     {"psi", kPressure, 6894.757293168},
     {"J", {1, 2, -2}, 1},

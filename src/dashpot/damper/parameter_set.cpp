@@ -5,6 +5,7 @@
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/require_keys.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/error.h"
@@ -32,6 +33,8 @@ ParameterSet parse_parameter_set(std::string_view text, const std::string& sourc
                                  const std::string& name) {
   const Value document = parse_json(text, source);
   ObjectReader reader(document, "a parameter set");
+  require_keys(document, "a parameter set",
+               {"model", "drive_range", "damper", "source", "verified", "reason"});
   const Value& model = reader.required("model");
   const Value& range = reader.required("drive_range");
   const std::vector<double> ends = range.as_numbers();

@@ -51,6 +51,16 @@ void read_range(const Value& value, DesignVariable& variable) {
     throw Error(value.where(), "the step of " + variable.name() + " is too small for its range");
 }
 
+/// A coil has whole turns, whatever the request says of steps. Those of the paper's circuit stand
+/// for its saturation as well, and need not be whole.
+void wind_whole_turns(DesignVariable& variable, const DamperDescription& damper) {
+  if (!variable.field || variable.field->field != &DamperDescription::turns) return;
+  if (variable.step > 0 || !variable.values.empty()) return;
+  if (damper.circuit_law == CircuitLaw::Paper) return;
+  variable.from = std::ceil(variable.from);
+  variable.step = 1;
+}
+
 DesignVariable read_variable(const std::string& name, const Value& value,
                              const std::filesystem::path& folder) {
   if (name == "fluid") return read_fluids(value, folder);
@@ -278,6 +288,7 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
   each_member(reader, "vary", [&](const std::string& name, const Value& value) {
     request.variables.push_back(read_variable(name, value, folder));
   });
+  for (DesignVariable& variable : request.variables) wind_whole_turns(variable, request.damper);
   each_member(reader, "follow", [&](const std::string& name, const Value& value) {
     request.following.push_back(read_following(name, value));
   });

@@ -320,9 +320,44 @@ class DaySearch {
   std::optional<Scores> scores_;
 };
 
+/// What would be taken for a change of the damper, or for none, without a word.
+void require_usable(const WatchedPlant& watched, const PlantRecording& recording) {
+  // Something moves the plant, and all sensors show it.
+  std::vector<std::string> channels = measured_inputs(watched.setup);
+  for (const PlantSensor& sensor : watched.setup.sensors) channels.push_back(sensor.channel);
+  for (const std::string& channel : channels) {
+    const auto [low, high] = std::ranges::minmax(recording.channel(channel).samples);
+    if (low == high)
+      throw Error(recording.name + ", " + channel, "is constant",
+                  "a day on which the plant moves and its sensors show it");
+  }
+
+  // As the days by which uncertainties were found.
+  constexpr double kSame = 1e-6;
+  if (watched.sample_time > 0 && std::abs(recording.sample_time / watched.sample_time - 1) > kSame)
+    throw Error(recording.name,
+                "is sampled every " + format_number(1e3 * recording.sample_time) +
+                    " ms, the first days every " + format_number(1e3 * watched.sample_time) + " ms",
+                "one rate on all days: at another one the same damper seems another");
+  constexpr double kFewest = 3;  // s
+  const double told = recording.sample_time * static_cast<double>(recording.samples) - kDaySettles;
+  if (told < kFewest - kSame)
+    throw Error(recording.name, "is " + format_number(told + kDaySettles) + " s long",
+                "3 s at least behind the first, and tens to tell of a damper");
+}
+
 }  // namespace
 
+std::string at_an_end(const WatchedPlant& watched, const DayEstimate& day) {
+  for (std::size_t k = 0; k < watched.setup.unknown.size(); ++k) {
+    const PlantUnknown& unknown = watched.setup.unknown[k];
+    if (day.plant[k] <= unknown.lower || day.plant[k] >= unknown.upper) return unknown.name;
+  }
+  return {};
+}
+
 DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording) {
+  require_usable(watched, recording);
   const DayProblem problem(watched, recording);
   DaySearch search(problem, watched.setup.sensors.size());
   if (!search.begin())
@@ -332,6 +367,7 @@ DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& reco
   day.iterations = search.run();
   day.converged = search.gain() < kFlat;
   problem.describe(search.x(), deviations_of(search.scores()), day);
+  if (!at_an_end(watched, day).empty()) day.converged = false;
   return day;
 }
 

@@ -14,9 +14,10 @@ struct WatchedPlant {
   Domain domain;                              ///< of its data
   InPlantSetup setup;  ///< what is unknown of the plant is found anew on each day
   std::vector<const Wear*> wears;
-  std::string level;    ///< sensor whose mean is followed too, as a ride height; empty: none
-  ObserverNoise noise;  ///< of the reference days
-  int steps = 1;        ///< of the filter per sample
+  std::string level;       ///< sensor whose mean is followed too, as a ride height; empty: none
+  ObserverNoise noise;     ///< of the reference days
+  int steps = 1;           ///< of the filter per sample
+  double sample_time = 0;  ///< s, of the reference days; 0: not known, as in states of before
 };
 
 /// What one day's recording says of the damper, with the standard deviations that the day itself
@@ -29,12 +30,17 @@ struct DayEstimate {
   /// of its first input, SI.
   double excitation = 0;
   int iterations = 0;
-  bool converged = false;
+  bool converged = false;  ///< with all that was unknown of the plant inside its range
 };
 
 /// The wear, unknown numbers of the plant and roughness under which the sensors of that day are
 /// most likely, by a filter that knows how wrong the model may be (method of scoring). Throws Error
-/// where the recording cannot be used or the filter diverges.
+/// where the filter diverges or the recording cannot be used: an input or a sensor that is
+/// constant, fewer than three seconds behind the first, another sample time than that of the
+/// reference days.
 DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording);
+
+/// The first unknown number of the plant that stands at an end of its range; empty: none does.
+std::string at_an_end(const WatchedPlant& watched, const DayEstimate& day);
 
 }  // namespace dashpot

@@ -132,16 +132,21 @@ PlantSensorPlace sensor_place(const QuantityWord& word, const Plant& plant, cons
 /// What a plant cannot do without: a number that its table does not have at 0. Stops are none
 /// unless they are stated, so that their stiffness does not matter.
 void require_stated(const InPlantSetup& setup, const std::string& where) {
+  std::vector<std::string> missing, units;
   for (const ParameterRow& row : setup.model->parameters) {
     const std::string name(row.name);
     if (row.value == 0 || name.starts_with("stop_")) continue;
     const bool known =
         std::ranges::any_of(setup.known, [&](const auto& one) { return one.first == name; });
-    if (!known &&
-        std::ranges::find(setup.unknown, name, &PlantUnknown::name) == setup.unknown.end())
-      throw Error(where, "says nothing of " + name + " (" + std::string(row.meaning) + ")",
-                  "its value in " + std::string(row.unit) + ", or 'unknown'");
+    if (known || std::ranges::find(setup.unknown, name, &PlantUnknown::name) != setup.unknown.end())
+      continue;
+    missing.push_back(name + " (" + std::string(row.meaning) + ")");
+    units.emplace_back(row.unit);
   }
+  if (missing.empty()) return;
+  throw Error(where, "says nothing of " + join(missing, ", "),
+              missing.size() == 1 ? "its value in " + units.front() + ", or 'unknown'"
+                                  : "their values in " + join(units, ", ") + ", or 'unknown'");
 }
 
 /// A drive: the name of a channel, or a constant level with its unit.
@@ -149,10 +154,25 @@ void read_drive(InPlantSetup& setup, const std::string& text, DriveUnit unit,
                 const std::string& where) {
   setup.drive_unit = unit;
   const bool is_level = !text.empty() && text.find_first_of("0123456789.-+") == 0;
-  if (is_level)
-    setup.level = parse_quantity(text, to_string(unit), where);
-  else
+  if (!is_level) {
     setup.drive = text;
+    return;
+  }
+
+  // A level in the other unit belongs to the other key.
+  const bool is_volt = unit == DriveUnit::Volt;
+  const DriveUnit other = is_volt ? DriveUnit::Ampere : DriveUnit::Volt;
+  const std::size_t behind = text.find_first_not_of("0123456789.eE+- ");
+  const std::optional<Unit> given =
+      behind == std::string::npos ? std::nullopt : parse_unit(text.substr(behind));
+  if (given && given->dimension == parse_unit(to_string(other))->dimension)
+    throw Error(where,
+                "'" + text + "' is a level in " + to_string(other) + ", not in " + to_string(unit),
+                std::string(is_volt ? "'current: " : "'voltage: ") + text +
+                    "' for a damper that is "
+                    "driven by a " +
+                    (is_volt ? "current" : "voltage"));
+  setup.level = parse_quantity(text, to_string(unit), where);
 }
 
 /// "CHANNEL@body"

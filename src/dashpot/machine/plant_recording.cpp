@@ -27,6 +27,8 @@ NameAndUnit name_and_unit(const RawColumn& column) {
           std::string(trim(text.substr(open + 1, text.size() - open - 2)))};
 }
 
+constexpr std::string_view kNoUnit = "taken as SI: no unit given";  ///< of a column, in its origin
+
 bool is_time(std::string_view name) {
   const std::string word = lower(name);
   return word == "time" || word == "t" || word == "t_s" || word == "time_s";
@@ -55,6 +57,17 @@ double mean_step(std::span<const double> stamps) {
   return rate >= 1 && std::abs(rate * step - 1) < kSame ? 1 / rate : step;
 }
 
+/// Steps of half a second and more without a unit are samples or a logger's ms: no plant of a
+/// damper is recorded so slowly.
+void require_plausible_step(const RawTable& table, const std::string& column, double step) {
+  constexpr double kLongest = 0.5;  // s
+  if (step < kLongest) return;
+  throw Error(table.file,
+              "time has no unit and steps of " + format_number(step, 3) +
+                  ", which are no seconds of a plant",
+              "name the column '" + column + " [ms]', or write its seconds");
+}
+
 void require_numbers(const RawTable& table, const RawColumn& column) {
   if (!column.bad) return;
   throw Error(table.where(column.bad->row),
@@ -71,6 +84,18 @@ const Channel& PlantRecording::channel(std::string_view wanted) const {
     known.push_back(channel.name);
   }
   throw Error(name, "has no channel '" + std::string(wanted) + "'", suggest(wanted, known));
+}
+
+std::string without_units(std::span<const PlantRecording> recordings) {
+  std::vector<std::string> names;
+  for (const PlantRecording& recording : recordings)
+    for (const Channel& channel : recording.channels)
+      if (channel.origin.ends_with(kNoUnit) &&
+          std::ranges::find(names, channel.name) == names.end())
+        names.push_back(channel.name);
+  if (names.empty()) return {};
+  return join(names, ", ") + ": no unit in the columns' names, taken as SI; name them as '" +
+         names.front() + " [mm]'";
 }
 
 PlantRecording read_plant_recording(const std::filesystem::path& path,
@@ -92,10 +117,12 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
 
   // Its time base: stated by the format, or by a column of time.
   if (table.sample_time) recording.sample_time = *table.sample_time;
+  std::string timed_without_unit;  // the column's name
   for (const RawColumn& column : table.columns) {
     const auto [name, unit] = name_and_unit(column);
     if (!is_time(name) || recording.sample_time > 0) continue;
     require_numbers(table, column);
+    if (unit.empty()) timed_without_unit = column.name;
     const double factor = unit.empty() ? 1 : require_unit(unit, table.file + ", time").factor;
     recording.sample_time = factor * mean_step(column.values);
     if (recording.sample_time <= 0)
@@ -116,7 +143,7 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
     const std::string where = table.file + ", column '" + column.name + "'";
     Channel channel{.name = name, .unit = "SI", .samples = std::move(column.values), .origin = {}};
     if (unit.empty()) {
-      channel.origin = "column " + name + ", taken as SI: no unit given";
+      channel.origin = "column " + name + ", " + std::string(kNoUnit);
     } else {
       const std::optional<Unit> known = parse_sensor_unit(unit);
       const Unit of = known ? *known : require_unit(unit, where);
@@ -129,6 +156,8 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
   for (const std::string& name : wanted)
     if (std::ranges::find(recording.channels, name, &Channel::name) == recording.channels.end())
       throw Error(table.file, "has no column '" + name + "'", "it has " + table.column_list());
+  if (!timed_without_unit.empty())
+    require_plausible_step(table, timed_without_unit, recording.sample_time);
   return recording;
 }
 

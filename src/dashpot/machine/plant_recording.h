@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct PlantRecording {
 PlantRecording read_plant_recording(const std::filesystem::path& path,
                                     const std::vector<std::string>& wanted,
                                     const std::vector<std::string>& also = {});
+
+/// Which of their channels stated no unit, in a sentence; empty: all stated one.
+std::string without_units(std::span<const PlantRecording> recordings);
 
 /// The same of a table that is at hand.
 PlantRecording plant_recording(RawTable table, const std::vector<std::string>& wanted,

@@ -90,6 +90,7 @@ WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Doma
   constexpr int kRounds = 2;
   if (reference.empty()) throw Error("recordings", "there are none", "name at least one");
   WatchedPlant watched = as_stated(std::move(damper), domain, std::move(setup), options);
+  watched.sample_time = reference.front().sample_time;
 
   // The uncertainties by the plant's numbers, these by the uncertainties, and once more.
   for (int round = 0; round < kRounds; ++round) {
@@ -145,8 +146,11 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
     const bool is_level = quantity.place >= watched.wears.size();
     std::vector<ChartDay> values;
     for (const WatchedDay& day : days) {
-      values.push_back({day.estimate.wear[quantity.place], day.known, day.estimate.converged});
-      values.back().known.push_back(std::log(day.estimate.excitation));
+      // Nothing follows from a day without any motion, which states of before may hold.
+      const bool moved = day.estimate.excitation > 0;
+      values.push_back(
+          {day.estimate.wear[quantity.place], day.known, day.estimate.converged && moved});
+      values.back().known.push_back(moved ? std::log(day.estimate.excitation) : 0);
       if (is_level)
         values.back().known.insert(values.back().known.end(), day.estimate.plant.begin(),
                                    day.estimate.plant.end());
@@ -165,7 +169,8 @@ Value found_of(const WatchedPlant& watched) {
                         {"force_errors", std::move(errors)},
                         {"sensor_noise", Value::array(watched.noise.sensors)},
                         {"roughness", watched.noise.roughness},
-                        {"steps", watched.steps}});
+                        {"steps", watched.steps},
+                        {"sample_time", watched.sample_time}});
 }
 
 WatchedPlant watched_again(std::shared_ptr<const DamperModel> damper, const Domain& domain,
@@ -187,6 +192,7 @@ WatchedPlant watched_again(std::shared_ptr<const DamperModel> damper, const Doma
   watched.noise.sensors = reader.required("sensor_noise").as_numbers();
   watched.noise.roughness = reader.number("roughness");
   watched.steps = static_cast<int>(reader.number("steps"));
+  watched.sample_time = reader.number("sample_time", 0);
   reader.finish();
   return watched;
 }

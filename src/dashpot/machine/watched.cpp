@@ -47,7 +47,10 @@ std::string Watched::remark(std::size_t day) const {
   std::vector<std::string> remarks;
   for (const WatchedQuantity& q : quantities)
     if (q.chart.alarm == day) remarks.push_back("ALARM: " + q.name);
-  if (!days[day].estimate.converged) remarks.emplace_back("does not count: not converged");
+  const std::string at_end = at_an_end(plant, days[day].estimate);
+  if (!days[day].estimate.converged)
+    remarks.push_back("does not count: " +
+                      (at_end.empty() ? "not converged" : at_end + " at an end of its range"));
   if (remarks.empty() && !is_judged(day)) remarks.emplace_back("reference");
   return join(remarks, ", ");
 }

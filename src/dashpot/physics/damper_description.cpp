@@ -111,11 +111,9 @@ std::string_view word_of(const Words& words, Law law) {
 
 void require_within(double value, const DescriptionField& field, const std::string& where) {
   if (value >= field.lower && value <= field.upper) return;
-  throw Error(
-      where,
-      std::string(field.name) + " is " + format_number(value) + " " + std::string(field.unit),
-      format_number(field.lower) + " ... " + format_number(field.upper) + " " +
-          std::string(field.unit));
+  const std::string unit = field.unit == "1" ? "" : " " + std::string(field.unit);
+  throw Error(where, std::string(field.name) + " is " + format_number(value) + unit,
+              format_number(field.lower) + " ... " + format_number(field.upper) + unit);
 }
 
 }  // namespace

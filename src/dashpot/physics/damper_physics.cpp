@@ -327,7 +327,11 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
                        " is a Herschel-Bulkley fluid: the moving wall and the paper's equations "
                        "take it as Bingham's, of the viscosity at its shear rate");
 
-  // The coil and its circuit.
+  // The coil and its circuit. The paper's circuit takes turns that stand for its saturation as
+  // well.
+  if (d.turns != std::round(d.turns) && d.circuit_law != CircuitLaw::Paper)
+    warnings.push_back("turns is " + format_number(d.turns, 6) +
+                       ", which no coil has: it is taken as it stands");
   if (p.coil_fill > 0.6)
     warnings.push_back("the coil fills " + format_number(100 * p.coil_fill, 3) +
                        " % of its room with copper; windings reach about 60 %");

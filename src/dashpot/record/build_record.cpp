@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/differentiate.h"
@@ -96,7 +97,7 @@ void require_plausible_step(const std::vector<double>& stamps, const RawTable& t
               "time (" + name + ") has no unit and steps of " + format_number(step, 3) +
                   ", which are no seconds in a test of a damper",
               "name it " + name + "_ms, or state its unit in a dataset file: 'time: {column: " +
-                  name + ", unit: ms}'");
+                  yaml_string(name) + ", unit: ms}'");
 }
 
 /// Takes the time column or makes the time stamps. Returns in words how time was understood. A
@@ -206,45 +207,67 @@ void cut(Record& record, const FileStatement& statement) {
   record.notes.push_back(note);
 }
 
-void centre(Record& record, const ColumnUses& uses) {
+using Records = std::vector<BuiltRecord>;
+
+/// Mean of a channel over all stretches of a recording, which have one sensor and one zero.
+double shared_mean(const Records& stretches, std::string_view channel) {
+  double sum = 0, count = 0;
+  for (const BuiltRecord& built : stretches) {
+    const std::vector<double>& samples = built.record.channel(channel).samples;
+    sum = std::accumulate(samples.begin(), samples.end(), sum);
+    count += static_cast<double>(samples.size());
+  }
+  return sum / count;
+}
+
+void move_by(Record& record, std::string_view channel, double by) {
+  for (double& value : record.find(channel)->samples) value -= by;
+}
+
+void centre(Records& stretches, const ColumnUses& uses) {
   for (const ColumnUse& use : uses.used) {
-    Channel* channel = use.centre ? record.find(use.channel) : nullptr;
-    if (!channel) continue;
-    const double mean = std::accumulate(channel->samples.begin(), channel->samples.end(), 0.0) /
-                        static_cast<double>(record.size());
-    for (double& value : channel->samples) value -= mean;
-    record.notes.push_back(channel->name + " centred: mean " + format_number(mean) + " " +
-                           channel->unit + " subtracted");
+    if (!use.centre || !stretches.front().record.find(use.channel)) continue;
+    const double mean = shared_mean(stretches, use.channel);
+    for (BuiltRecord& built : stretches) {
+      move_by(built.record, use.channel, mean);
+      built.record.notes.push_back(use.channel + " centred: mean " + format_number(mean) + " " +
+                                   use.si_unit + " subtracted");
+    }
   }
 }
 
 /// A stroke that is read from one end of the damper lies far from 0, where no law looks for the
 /// middle of the motion. Centres one that nobody has placed: its mean is beyond 80 % of its half
-/// range, and neither 'offset' nor 'centre' was stated. Returns what was subtracted, m.
-std::optional<double> centre_stroke(Record& record, const ColumnUses& uses, bool as_given) {
+/// range, and neither 'offset' nor 'centre' was stated. All stretches of a recording have one
+/// middle.
+void centre_stroke(Records& stretches, const ColumnUses& uses, bool as_given) {
   constexpr double kFar = 0.8, kMillimetres = 1e3;
   const ColumnUse* use = find_use(uses, "displacement");
-  if (!use || use->placed) return std::nullopt;
+  if (!use || use->placed) return;
 
   // Where the stroke lies, beside its range.
-  std::vector<double>& x = record.find("displacement")->samples;
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  const double least = *low, greatest = *high;
-  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(record.size());
-  if (!(std::abs(mean) > kFar * 0.5 * (greatest - least)) || least == greatest) return std::nullopt;
+  double least = INFINITY, greatest = -INFINITY;
+  for (const BuiltRecord& built : stretches) {
+    const auto [low, high] = std::ranges::minmax(built.record.channel("displacement").samples);
+    least = std::min(least, low), greatest = std::max(greatest, high);
+  }
+  const double mean = shared_mean(stretches, "displacement");
+  if (!(std::abs(mean) > kFar * 0.5 * (greatest - least)) || least == greatest) return;
 
   const std::string stroke = "displacement of " + format_number(kMillimetres * least, 3) + " ... " +
                              format_number(kMillimetres * greatest, 3) +
                              " mm is an absolute stroke";
-  if (as_given) {
-    record.notes.push_back(stroke + ": laws of displacement expect its middle at 0");
-    return std::nullopt;
+  for (BuiltRecord& built : stretches) {
+    if (as_given) {
+      built.record.notes.push_back(stroke + ": laws of displacement expect its middle at 0");
+      continue;
+    }
+    move_by(built.record, "displacement", mean);
+    built.centred = mean;
+    built.record.notes.push_back(stroke + ": centred, its mean of " +
+                                 format_number(kMillimetres * mean, 4) +
+                                 " mm subtracted ('centre: none' keeps it, 'offset' places it)");
   }
-  for (double& value : x) value -= mean;
-  record.notes.push_back(stroke + ": centred, its mean of " +
-                         format_number(kMillimetres * mean, 4) +
-                         " mm subtracted ('centre: none' keeps it, 'offset' places it)");
-  return mean;
 }
 
 /// Notes displacement and velocity that were both recorded and run opposite ways.
@@ -262,6 +285,46 @@ void doubt_directions(Record& record, const ColumnUses& uses) {
     record.notes.push_back(
         "displacement falls where velocity is positive: one of the two has the other sign; state "
         "'sign: -1' for it in a dataset file");
+}
+
+/// Notes motions with rests between them: several tests in one recording, most likely, which every
+/// later room takes as one. A rest stays within 0.5 % of the half range for a second at least; a
+/// motion goes through the middle of its range to both sides.
+void doubt_one_test(Record& record) {
+  constexpr double kRest = 1, kStill = 0.005, kBand = 0.2;  // s, of the half range
+  const std::vector<double>& x = motion_channel(record).samples;
+  const auto [low, high] = std::ranges::minmax(x);
+  const double half = 0.5 * (high - low), middle = 0.5 * (high + low);
+  if (half == 0) return;
+
+  // Each stretch that stays near its first sample is a rest, or a part of a motion.
+  std::size_t motions = 0, passes = 0;
+  int side = 0;
+  double longest = 0;
+  const auto end_motion = [&] {
+    constexpr std::size_t kCycle = 3;  // to one side, the other and back
+    motions += passes >= kCycle;
+    passes = 0, side = 0;
+  };
+  for (std::size_t k = 0, end = 0; k < x.size(); k = end) {
+    for (end = k + 1; end < x.size() && std::abs(x[end] - x[k]) <= kStill * half;) ++end;
+    if (const double rest = record.time[end - 1] - record.time[k]; rest >= kRest) {
+      if (motions + passes > 0 && end < x.size()) longest = std::max(longest, rest);
+      end_motion();
+      continue;
+    }
+    const int now = std::abs(x[k] - middle) <= kBand * half ? side : x[k] > middle ? 1 : -1;
+    passes += now != side;
+    side = now;
+  }
+  end_motion();
+
+  if (motions > 1)
+    record.notes.push_back(
+        "the damper rests for up to " + format_number(longest, 2) + " s between " +
+        std::to_string(motions) +
+        " motions, taken as one record: if these are tests of their own, give each a file, or a "
+        "part in 'roles' of a dataset file ('{role: training, from: 0, to: 5}')");
 }
 
 /// Derives velocity from displacement where no column gives it. The cut-off is that of the dataset
@@ -311,30 +374,36 @@ void add_displacement(Record& record) {
   }
 }
 
-/// A damper takes energy out. When nobody stated the sign of the force and the record puts energy
-/// in, it was recorded the other way round. A net energy below 20 % of what goes to and fro decides
-/// nothing: a spring or noise can make it.
-void settle_sign(Record& record, const ColumnUses& uses) {
-  Channel* force = record.find("force");
-  const std::vector<double>& v = record.channel("velocity").samples;
+/// A damper takes energy out. When nobody stated the sign of the force and the recording puts
+/// energy in, it was recorded the other way round. A net energy below 20 % of what goes to and fro
+/// decides nothing: a spring or noise can make it.
+void settle_sign(Records& stretches, const ColumnUses& uses) {
   double energy = 0, throughput = 0;
-  for (std::size_t k = 1; k < record.size(); ++k) {
-    const double part = force->samples[k] * v[k] * (record.time[k] - record.time[k - 1]);
-    energy += part;
-    throughput += std::abs(part);
+  for (const BuiltRecord& built : stretches) {
+    const Record& record = built.record;
+    const std::vector<double>& force = record.channel("force").samples;
+    const std::vector<double>& v = record.channel("velocity").samples;
+    for (std::size_t k = 1; k < record.size(); ++k) {
+      const double part = force[k] * v[k] * (record.time[k] - record.time[k - 1]);
+      energy += part;
+      throughput += std::abs(part);
+    }
   }
 
   if (energy > -0.2 * throughput || throughput == 0) return;
-  if (find_use(uses, "force")->stated) {
-    record.notes.push_back(
-        "the damper puts energy in, with the force's sign as stated: is it right?");
-    return;
+  for (BuiltRecord& built : stretches) {
+    if (find_use(uses, "force")->stated) {
+      built.record.notes.push_back(
+          "the damper puts energy in, with the force's sign as stated: is it right?");
+      continue;
+    }
+    Channel* force = built.record.find("force");
+    for (double& value : force->samples) value = -value;
+    force->origin += ", sign flipped";
+    built.record.notes.push_back(
+        "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep "
+        "it)");
   }
-  for (double& value : force->samples) value = -value;
-  force->origin += ", sign flipped";
-  record.notes.push_back(
-      "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep "
-      "it)");
 }
 
 /// Mean force, N, while the motion turns: gas, and the zero of the load cell.
@@ -441,10 +510,11 @@ double mean_of(const Channel& channel) {
 }
 
 /// Whether a recorded drive is not the level that somebody wrote down, sensors and their zeros
-/// aside.
+/// aside: the zero of a sensor for a few mA is a better one.
 bool contradicts(const Channel& drive, double level) {
-  constexpr double kZero = 0.05, kShare = 0.1;
-  return std::abs(mean_of(drive) - level) > std::max(kZero, kShare * std::abs(level));
+  constexpr double kZero = 0.05, kZeroShare = 0.5, kShare = 0.1;
+  const double zero = level == 0 ? kZero : std::min(kZero, kZeroShare * std::abs(level));
+  return std::abs(mean_of(drive) - level) > std::max(zero, kShare * std::abs(level));
 }
 
 /// The level that is known from beside the table, after the recorded drive has been heard: a column
@@ -482,32 +552,18 @@ std::optional<KnownLevel> heard_level(const Record& record, const std::optional<
   return level->of_name ? std::nullopt : level;
 }
 
-/// Adds the drive as a channel where it is known from beside the table, and finds the level of a
-/// drive that is constant.
+/// Adds the drive as a channel where it is known from beside the table. A level that only the
+/// samples tell is found when all records are there (drive_levels.h).
 void add_drive(Record& record, const std::optional<KnownLevel>& known, std::string& note) {
   const std::optional<KnownLevel> level = heard_level(record, known, note);
   if (!note.empty()) record.notes.push_back(note);
-  if (level) {
-    const std::string& name = drive_channel(level->unit);
-    record.drive_level = level->value;
-    if (!record.find(name))
-      record.channels.push_back({name, to_string(level->unit),
-                                 std::vector<double>(record.size(), level->value),
-                                 "constant, from " + level->basis});
-    return;
-  }
-
-  // A recorded drive: constant when it moves by no more than sensor noise.
-  for (const char* name : {"current", "voltage"}) {
-    const Channel* drive = record.find(name);
-    if (!drive) continue;
-    const auto [low, high] = std::minmax_element(drive->samples.begin(), drive->samples.end());
-    const double mean = mean_of(*drive);
-    // Sensor noise on a constant level: levels are set in steps of hundredths at the finest.
-    if (*high - *low <= std::max(0.02, 0.05 * std::abs(mean)))
-      record.drive_level = std::round(mean * 100) / 100 + 0.0;  // no -0
-    return;
-  }
+  if (!level) return;
+  const std::string& name = drive_channel(level->unit);
+  record.drive_level = level->value;
+  if (!record.find(name))
+    record.channels.push_back({name, to_string(level->unit),
+                               std::vector<double>(record.size(), level->value),
+                               "constant, from " + level->basis});
 }
 
 /// One row for each column of the file: how it was used, or why not.
@@ -531,15 +587,10 @@ std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& 
   return readings;
 }
 
-}  // namespace
-
-BuiltRecord build_record(RawTable table, const BuildContext& context) {
-  BuiltRecord built;
-
-  // Understand the columns, and refuse what is no recording before looking at its numbers.
-  const ColumnUses uses = understand_columns(table, *context.statement, context.stated_in);
-  built.refusal = refusal(table, uses);
-  if (!built.refusal.empty()) return built;
+/// Name, conditions, time and channels of one table, cut and resampled as stated. Takes its
+/// columns.
+void take_table(BuiltRecord& built, RawTable& table, const ColumnUses& uses,
+                const BuildContext& context) {
   for (const ColumnUse& use : uses.used) require_numbers(table, use);
   if (table.rows() < 2)
     throw Error(
@@ -565,17 +616,43 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   // Cut before anything that depends on what is left: resampling, means, the filter's cut-off.
   cut(record, *context.statement);
   if (context.statement->resample_hz) resample(record, *context.statement->resample_hz);
-  centre(record, uses);
-  built.centred = centre_stroke(record, uses, context.as_given);
-  doubt_directions(record, uses);
-  add_velocity(record, context);
-  if (!context.as_given) add_displacement(record);
-  settle_sign(record, uses);
-  settle_inertia(record, uses);
-  if (!context.as_given) note_direction(record, table, uses);
-  doubt_units(record, uses);
-  add_drive(record, context.level, built.drive_note);
-  return built;
+}
+
+}  // namespace
+
+std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
+                                       std::span<const BuildContext> contexts) {
+  // Understand the columns, and refuse what is no recording before looking at its numbers.
+  std::vector<BuiltRecord> all(stretches.size());
+  const BuildContext& shared = contexts.front();
+  const ColumnUses uses =
+      understand_columns(stretches.front(), *shared.statement, shared.stated_in);
+  all.front().refusal = refusal(stretches.front(), uses);
+  if (!all.front().refusal.empty()) return all;
+
+  // What each stretch holds by itself.
+  for (std::size_t k = 0; k < stretches.size(); ++k)
+    take_table(all[k], stretches[k], uses, contexts[k]);
+
+  // One sensor has one zero and one sign, whatever gaps time has.
+  centre(all, uses);
+  centre_stroke(all, uses, shared.as_given);
+  for (BuiltRecord& built : all) {
+    doubt_directions(built.record, uses);
+    doubt_one_test(built.record);
+    add_velocity(built.record, shared);
+    if (!shared.as_given) add_displacement(built.record);
+  }
+  settle_sign(all, uses);
+
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    Record& record = all[k].record;
+    settle_inertia(record, uses);
+    if (!shared.as_given) note_direction(record, stretches[k], uses);
+    doubt_units(record, uses);
+    add_drive(record, contexts[k].level, all[k].drive_note);
+  }
+  return all;
 }
 
 }  // namespace dashpot

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,13 +41,18 @@ struct BuiltRecord {
   std::string refusal;            ///< not empty: why this table is not a recording of a damper
 };
 
-/// The one way from a table of a file to a record in SI: channels and signs, time base, cuts,
+/// The one way from the tables of a file to records in SI: channels and signs, time base, cuts,
 /// resampling, centring, velocity, displacement, drive level. Every later room takes a Record for
 /// granted: uniform or increasing time, all channels equally long, velocity present.
 ///
-/// Takes the table's columns, so that a long recording is in memory once. Throws Error(file:line,
+/// `stretches` are the parts of one recording between gaps in its time, one in most (stretches.h):
+/// they share their columns, and the sign of the force and every centre are found over all of them.
+/// One context per stretch; all but name and level are those of the first.
+///
+/// Takes the tables' columns, so that a long recording is in memory once. Throws Error(file:line,
 /// ...) on numbers that cannot be used, and Error(file, ...) on time, units or cuts that cannot be;
-/// a table that merely is no damper recording is no error but a `refusal`.
-BuiltRecord build_record(RawTable table, const BuildContext& context);
+/// tables that merely are no damper recording are no error but a `refusal` of the first.
+std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
+                                       std::span<const BuildContext> contexts);
 
 }  // namespace dashpot

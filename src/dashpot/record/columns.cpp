@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
@@ -71,9 +72,9 @@ ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
     const NamedChannel named = recognise_channel(column.name, column.unit);
     unit = !column.unit.empty() ? column.unit : named.channel == use.channel ? named.unit : "";
     if (column.unit.empty() && named.channel == use.channel && !named.problem.empty())
-      throw Error(
-          statement.where, "column '" + column.name + "' has " + named.problem,
-          "state its unit: '" + use.channel + ": {column: " + column.name + ", unit: UNIT}'");
+      throw Error(statement.where, "column '" + column.name + "' has " + named.problem,
+                  "state its unit: '" + use.channel + ": {column: " + yaml_string(column.name) +
+                      ", unit: UNIT}'");
     use.basis += unit.empty() ? ", assumed SI: no unit given" : ", unit from the file";
   }
   set_unit(use, unit, statement);
@@ -108,12 +109,14 @@ const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
 
 [[noreturn]] void refuse_two(const std::vector<Claim>& claims, const RawTable& table) {
   const std::string& channel = claims.front().named.channel;
-  throw Error(table.file,
-              "columns '" + column_name(table, claims[0].column) + "' and '" +
-                  column_name(table, claims[1].column) + "' are both " + channel +
-                  " by their names",
-              "state which in a dataset file, as in 'channels: {" + channel +
-                  ": {column: " + column_name(table, claims[0].column) + "}}'");
+  const std::string first = "{column: " + yaml_string(column_name(table, claims[0].column)) + "}";
+  throw Error(
+      table.file,
+      "columns '" + column_name(table, claims[0].column) + "' and '" +
+          column_name(table, claims[1].column) + "' are both " + channel + " by their names",
+      "state which in a dataset file, as in '" +
+          (channel == "time" ? "time: " + first : "channels: {" + channel + ": " + first + "}") +
+          "'");
 }
 
 /// Uses the chosen column of a channel; notes the others as unused.
@@ -126,11 +129,11 @@ void use_claims(const std::vector<Claim>& claims, const RawTable& table, ColumnU
                                                 "' is the " + claim.named.channel);
 
   if (!chosen->named.problem.empty())
-    throw Error(table.where(0),
-                "column '" + column_name(table, chosen->column) + "' has " + chosen->named.problem,
-                "correct the header, or state it in a dataset file: 'channels: {" +
-                    chosen->named.channel + ": {column: " + column_name(table, chosen->column) +
-                    ", unit: UNIT}}'");
+    throw Error(
+        table.where(0),
+        "column '" + column_name(table, chosen->column) + "' has " + chosen->named.problem,
+        "correct the header, or state it in a dataset file: 'channels: {" + chosen->named.channel +
+            ": {column: " + yaml_string(column_name(table, chosen->column)) + ", unit: UNIT}}'");
 
   ColumnUse use;
   use.column = chosen->column;

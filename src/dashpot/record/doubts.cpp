@@ -94,6 +94,38 @@ std::optional<std::string> stuck_displacement(const Record& record, const Sample
   return std::nullopt;
 }
 
+/// A displacement that stands still up to the end while force or a measured velocity go to and fro.
+std::optional<std::string> dead_displacement(const Record& record, const Samples& displacement) {
+  constexpr std::size_t kLeast = 20, kPasses = 3;
+  constexpr double kBand = 0.2;
+  const std::vector<Run> runs = equal_runs(displacement, kLeast);
+  if (runs.empty() || runs.back().end != displacement.size() || runs.back().first == 0)
+    return std::nullopt;
+
+  // A motion that ends at rest lets the force settle; a motion that goes on takes it from one half
+  // of its usual range into the other, and back.
+  const Run& still = runs.back();
+  for (const std::string_view name : {"force", "velocity"}) {
+    const Channel* channel = record.find(name);
+    if (!channel || channel->origin.starts_with("derived")) continue;
+    const auto [low, high] = std::ranges::minmax(channel->samples);
+    const double middle = 0.5 * (low + high), band = kBand * 0.5 * (high - low);
+    std::size_t passes = 0;
+    int side = 0;
+    for (std::size_t k = still.first; k < still.end; ++k) {
+      const double off = channel->samples[k] - middle;
+      if (std::abs(off) <= band || (off > 0 ? 1 : -1) == side) continue;
+      side = off > 0 ? 1 : -1;
+      ++passes;
+    }
+    if (passes >= kPasses)
+      return "the displacement stands still " + between(record, still) +
+             ", the end of the record, while the " + std::string(name) +
+             " goes on: the sensor died; 'cut' in a dataset file leaves that part out";
+  }
+  return std::nullopt;
+}
+
 /// An extreme at which the force stays, sample for sample, whenever it gets there, and which it
 /// reaches by a step far above its resolution.
 std::optional<std::string> clipped_force(const Samples& force, const Samples& displacement,
@@ -249,6 +281,7 @@ std::vector<std::string> doubts_about(const Record& record) {
   // What the motion makes implausible.
   if (!displacement) return doubts;
   add(stuck_displacement(record, displacement->samples));
+  add(dead_displacement(record, displacement->samples));
   const auto [low, high] = std::ranges::minmax(displacement->samples);
   if (!force || high <= low) return doubts;
   // A clipped force stands still, too.

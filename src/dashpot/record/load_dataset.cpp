@@ -10,6 +10,7 @@
 #include "dashpot/record/conditions.h"
 #include "dashpot/record/dataset_file.h"
 #include "dashpot/record/doubts.h"
+#include "dashpot/record/drive_levels.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/record/sources.h"
@@ -53,6 +54,18 @@ std::string pointed_folder(const SourcePath& file) {
   return folder.filename().string();
 }
 
+/// Where a level stands in a list of them: the parts of a file, or the stretches of one with gaps.
+struct Listed {
+  std::size_t place = 0;
+  std::optional<std::size_t> stretches;  ///< how many there are, where the list counts these
+};
+
+/// The file that a record is of, and what is stated about it.
+struct Origin {
+  const SourcePath* file = nullptr;
+  const FileStatement* statement = nullptr;
+};
+
 /// Loads file after file into one dataset.
 class Loader {
  public:
@@ -69,6 +82,7 @@ class Loader {
                                 static_cast<double>(done++) / static_cast<double>(file_count_));
         load_file(file);
       }
+      leave();
     }
 
     if (dataset_.records.empty()) refuse_nothing();
@@ -117,6 +131,16 @@ class Loader {
     if (!dataset_.leave_out) dataset_.leave_out = stated.leave_out;
   }
 
+  /// What needs all records of the folder: levels that only samples tell, then what depends on
+  /// them.
+  void leave() {
+    const std::span<Record> records = std::span(dataset_.records).last(origins_.size());
+    find_drive_levels(records);
+    for (std::size_t k = 0; k < records.size(); ++k)
+      conditions_.add(records[k], *origins_[k].file, *origins_[k].statement);
+    origins_.clear();
+  }
+
   /// A bare name of the manifest may not stand for two files.
   void refuse_ambiguous_names() const {
     std::map<std::size_t, const SourcePath*> seen;
@@ -135,7 +159,8 @@ class Loader {
   /// nothing behind; a file that was named, or a statement that is wrong, stops everything.
   void load_file(const SourcePath& file) {
     const std::size_t records = dataset_.records.size(), readings = dataset_.readings.size(),
-                      centred = centred_.size(), drives = drive_notes_.size();
+                      centred = centred_.size(), drives = drive_notes_.size(),
+                      origins = origins_.size();
     try {
       load_sound_file(file);
     } catch (const Error& error) {
@@ -145,6 +170,7 @@ class Loader {
           (!manifest_.empty() && why.starts_with(manifest_.path()));
       if (file.named || of_statement) throw;
       dataset_.records.resize(records);
+      origins_.resize(origins);
       name_rests_.resize(records);
       dataset_.readings.resize(readings);
       centred_.resize(centred);
@@ -183,63 +209,70 @@ class Loader {
 
     const std::size_t parts = tables.size();
     bool used = false;
-    for (RawTable& table : tables) {
-      std::vector<RawTable> stretches = usable_stretches(std::move(table), *statement, stated_in_);
-      const bool split = stretches.size() > 1;
-      for (std::size_t k = 0; k < stretches.size(); ++k)
-        used = load_table(file, *statement, std::move(stretches[k]), parts,
-                          split ? ", stretch " + std::to_string(k + 1) : "") ||
-               used;
-    }
+    for (RawTable& table : tables)
+      used = load_stretches(file, *statement,
+                            usable_stretches(std::move(table), *statement, stated_in_), parts) ||
+             used;
     if (used) dataset_.files.push_back({file.path.string(), sha256_of_file(file.path)});
   }
 
-  /// Makes a record of one table; false when the table was passed over. `stretch` ends the names of
-  /// records of a table that has gaps; "" for a whole one.
-  bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table,
-                  std::size_t parts, const std::string& stretch) {
+  /// Makes a record of each stretch of one table, which is one in a table whose time has no gap;
+  /// false when the table was passed over.
+  bool load_stretches(const SourcePath& file, const FileStatement& statement,
+                      std::vector<RawTable> stretches, std::size_t parts) {
+    const bool is_split = stretches.size() > 1;
     const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
-    const bool has_name = parts > 1 && !table.part_name.empty();
-    const NameParts name = has_name ? split_part_name(stem, table.part_name) : split_name(stem);
+    const RawTable& first = stretches.front();
+    const bool has_name = parts > 1 && !first.part_name.empty();
+    const NameParts name = has_name ? split_part_name(stem, first.part_name) : split_name(stem);
 
-    // The drive level as the statement, the manifest or the name has it.
-    BuildContext context{&statement,
-                         stated_in_,
-                         {},
-                         known_level(file, statement, table, name),
-                         options_.velocity_cutoff_hz};
+    // Of each: the drive level as the statement, the manifest or the name has it, and the record's
+    // name. Levels that are listed count the stretches where the file has no other parts.
+    const std::string part = std::to_string(first.part_index + 1), group = first.group;
+    const std::string part_name = has_name ? first.part_name : "part " + part;
+    std::vector<BuildContext> contexts;
+    std::vector<std::string> conditions;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+      const Listed listed = is_split && parts == 1 ? Listed{k, stretches.size()}
+                                                   : Listed{first.part_index, std::nullopt};
+      BuildContext context{&statement, stated_in_,
+                           !group.empty() ? first.part
+                           : parts > 1    ? stem + ", " + part_name
+                                          : stem,
+                           known_level(file, statement, listed, name), options_.velocity_cutoff_hz};
+      const auto words = template_words(file, stem, part, group, context.level);
+      if (!statement.name.empty())
+        context.name = fill_template(statement.name, words, statement.where);
+      if (is_split) context.name += ", stretch " + std::to_string(k + 1);
+      conditions.push_back(fill_template(statement.condition, words, statement.where));
+      contexts.push_back(std::move(context));
+    }
 
-    // Name and condition, from templates where the dataset file gives them.
-    const std::string part = std::to_string(table.part_index + 1), group = table.group;
-    const std::string part_name = has_name ? table.part_name : "part " + part;
-    const auto words = template_words(file, stem, part, group, context.level);
-    context.name = !group.empty() ? table.part : parts > 1 ? stem + ", " + part_name : stem;
-    if (!statement.name.empty())
-      context.name = fill_template(statement.name, words, statement.where);
-    context.name += stretch;
-    const std::string condition = fill_template(statement.condition, words, statement.where);
-
-    BuiltRecord built = build_record(std::move(table), context);
-    if (!built.refusal.empty()) {
+    std::vector<BuiltRecord> all = build_records(std::move(stretches), contexts);
+    if (const std::string& refusal = all.front().refusal; !refusal.empty()) {
       if (file.named || (!stated_in_.empty() && !statement.states_nothing))
-        throw Error(file.path.string(), built.refusal);
-      pass_over(file, built.refusal);
+        throw Error(file.path.string(), refusal);
+      pass_over(file, refusal);
       return false;
     }
 
-    conditions_.add(built.record, file, statement);
-    if (built.centred) centred_.push_back(*built.centred);
-    if (!built.drive_note.empty()) drive_notes_.push_back(file.relative + ": " + built.drive_note);
-    built.record.condition = condition.empty() ? group : condition;
-    dataset_.readings.insert(dataset_.readings.end(), built.readings.begin(), built.readings.end());
-    add_records(std::move(built.record), statement, name.rest, !stretch.empty());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      BuiltRecord& built = all[k];
+      if (built.centred) centred_.push_back(*built.centred);
+      if (!built.drive_note.empty())
+        drive_notes_.push_back(file.relative + ": " + built.drive_note);
+      built.record.condition = conditions[k].empty() ? group : conditions[k];
+      dataset_.readings.insert(dataset_.readings.end(), built.readings.begin(),
+                               built.readings.end());
+      add_records(std::move(built.record), {&file, &statement}, name.rest, is_split);
+    }
     return true;
   }
 
   /// One record, or one per role that the statement gives to a part of it. A stretch of a recording
   /// with gaps has the roles that reach it.
-  void add_records(Record record, const FileStatement& statement, const std::string& rest,
-                   bool is_stretch) {
+  void add_records(Record record, const Origin& origin, const std::string& rest, bool is_stretch) {
+    const FileStatement& statement = *origin.statement;
     const auto at_time = [&](const std::optional<double>& t, std::size_t otherwise) {
       if (!t) return otherwise;
       return static_cast<std::size_t>(std::lower_bound(record.time.begin(), record.time.end(), *t) -
@@ -247,8 +280,7 @@ class Loader {
     };
 
     if (statement.roles.empty()) {
-      dataset_.records.push_back(std::move(record));
-      name_rests_.push_back(rest);
+      add_record(std::move(record), origin, rest);
       return;
     }
 
@@ -268,9 +300,14 @@ class Loader {
         part.name += role.role == Role::Training ? ", training" : ", left out";
       if (part.warm_up > 0)
         part.notes.push_back("scored from " + format_number(part.time[part.warm_up], 6) + " s");
-      dataset_.records.push_back(std::move(part));
-      name_rests_.push_back(rest);
+      add_record(std::move(part), origin, rest);
     }
+  }
+
+  void add_record(Record record, const Origin& origin, const std::string& rest) {
+    dataset_.records.push_back(std::move(record));
+    name_rests_.push_back(rest);
+    origins_.push_back(origin);
   }
 
   /// The words that templates of names and conditions may use, the manifest's columns among them.
@@ -291,19 +328,29 @@ class Loader {
   /// The drive level from beside the table, the surest source first: the statement, the manifest,
   /// the file's name. A stated drive column makes all of them silent but the first.
   std::optional<KnownLevel> known_level(const SourcePath& file, const FileStatement& statement,
-                                        const RawTable& table, const NameParts& name) const {
+                                        const Listed& listed, const NameParts& name) const {
     const DriveUnit unit = sources_.stated.drive_unit.value_or(DriveUnit::Ampere);
     if (const auto* level = std::get_if<double>(&statement.level))
       return KnownLevel{*level, unit, stated_in_};
     if (const auto* column = std::get_if<std::string>(&statement.level))
       return KnownLevel{manifest_.number(file, *column), unit, "manifest, " + *column};
     if (const auto* levels = std::get_if<std::vector<double>>(&statement.level)) {
-      if (table.part_index < levels->size())
-        return KnownLevel{(*levels)[table.part_index], unit, stated_in_};
-      throw Error(
-          statement.where,
-          "'level' lists " + std::to_string(levels->size()) + " parts, " + table.file + " has more",
-          "one level per part");
+      if (levels->size() == 1 && listed.stretches)
+        return KnownLevel{levels->front(), unit, stated_in_};
+      if (listed.stretches && *listed.stretches != levels->size())
+        throw Error(statement.where,
+                    "'level' lists " + std::to_string(levels->size()) +
+                        " levels, and gaps in the "
+                        "time of " +
+                        file.relative + " leave " + std::to_string(*listed.stretches) +
+                        " stretches",
+                    "one level for all, or one per stretch as 'dashpot inspect' lists them");
+      if (listed.place < levels->size())
+        return KnownLevel{(*levels)[listed.place], unit, stated_in_};
+      throw Error(statement.where,
+                  "'level' lists " + std::to_string(levels->size()) + " parts, " + file.relative +
+                      " has more",
+                  "one level per part");
     }
 
     const bool drive_stated = std::any_of(
@@ -501,6 +548,7 @@ class Loader {
   std::vector<double> centred_;          ///< m, by which absolute strokes were moved
   std::vector<std::string> drive_notes_;
   std::vector<std::string> name_rests_;  ///< of each record: its name without the drive level
+  std::vector<Origin> origins_;          ///< of each record of the folder that is being read
 };
 
 }  // namespace

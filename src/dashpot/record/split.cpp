@@ -99,9 +99,13 @@ std::vector<std::string> chosen_drives(const Dataset& dataset, const LeaveOut& h
                                 " constant drive level(s): no inner one to leave out");
 }
 
-/// Two levels are the same within their printed digits: 0.87 means 0.8712.
-bool same_level(double level, double asked) {
-  return std::abs(level - asked) <= 0.005 * std::max(1.0, std::abs(asked));
+/// How far a level that is asked for may lie from that of a record, A or V: 0.87 means 0.8712.
+/// Where all levels are below 1, of the largest.
+double printed_digits(const Dataset& dataset, double asked) {
+  constexpr double kShare = 0.005;
+  double largest = 0;
+  for (const double level : levels(dataset)) largest = std::max(largest, std::abs(level));
+  return kShare * std::max(std::min(1.0, largest), std::abs(asked));
 }
 
 std::vector<Fold> by_current(const Dataset& dataset, const LeaveOut& how) {
@@ -114,9 +118,12 @@ std::vector<Fold> by_current(const Dataset& dataset, const LeaveOut& how) {
     }
     const auto level = parse_number(text);
     if (!level) impossible(dataset, "'" + text + "' is not a drive level");
-    folds.push_back(fold_by(
-        dataset, "without " + format_number(*level) + " " + to_string(dataset.drive_unit),
-        [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, *level); }));
+    const double within = printed_digits(dataset, *level);
+    folds.push_back(
+        fold_by(dataset, "without " + format_number(*level) + " " + to_string(dataset.drive_unit),
+                [&](const Record& r) {
+                  return r.drive_level && std::abs(*r.drive_level - *level) <= within;
+                }));
   }
   return folds;
 }

@@ -37,6 +37,18 @@ int significant_digits(std::span<const double> stamps) {
   return 0;
 }
 
+/// Whether the stamps were kept in single precision, as loggers and arrays do.
+bool single_precision(std::span<const double> stamps) {
+  return std::ranges::all_of(
+      stamps, [](double t) { return static_cast<double>(static_cast<float>(t)) == t; });
+}
+
+/// Distance of neighbouring numbers of single precision at t.
+double single_spacing(double t) {
+  const float size = std::abs(static_cast<float>(t));
+  return static_cast<double>(std::nextafter(size, INFINITY) - size);
+}
+
 struct Line {
   double start = 0, step = 0;
 };
@@ -88,18 +100,22 @@ double uniform_step(std::span<const double> stamps) {
   if (stamps.size() < 2) return 0;
   const Line line = fit_line(stamps);
 
-  // To what are the stamps printed: a fixed decimal place, or so many significant digits, whose
-  // place grows with the stamp?
+  // To what are the stamps rounded: a fixed decimal place, so many significant digits, whose place
+  // grows with the stamp, or single precision, which does so in powers of two?
   const double digit = printed_digit(stamps);
   const int digits = digit > 0 ? significant_digits(stamps) : 0;
-  const double coarsest =
-      digits > 0 ? std::pow(10.0, 1 - digits) * power_of_ten(stamps.back()) : digit;
+  const bool single = digit == 0 && single_precision(stamps);
+  const double coarsest = single       ? single_spacing(stamps.back())
+                          : digits > 0 ? std::pow(10.0, 1 - digits) * power_of_ten(stamps.back())
+                                       : digit;
   // Coarse digits (0 1 2 4 5) cannot show that a gap is rounding: then only an exact grid is
   // uniform.
   const bool rounded = std::max(digit, coarsest) < 0.5 * line.step;
   const auto tolerance = [&](double t) {
-    const double place =
-        digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
+    const double place = single ? single_spacing(t)
+                         : digits > 0
+                             ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t))
+                             : digit;
     return (rounded ? 0.6 * place : 0) + 1e-6 * line.step + 1e-15 * std::abs(t);
   };
 

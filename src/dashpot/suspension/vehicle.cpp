@@ -164,16 +164,20 @@ double starting_current(const ChosenDamper& damper, const DriveRange& drive,
 
 /// Takes off the force that the damper has at rest in its middle (gas, offset): the plant's
 /// coordinates count from where the vehicle stands with its dampers in, so the springs bear that
-/// force already, and nothing moves before the road does.
-ChosenDamper in_equilibrium(ChosenDamper damper, double current) {
+/// force already, and nothing moves before the road does. The note tells the current where the
+/// force depends on it, since a vehicle that is compared with this one may have another.
+ChosenDamper in_equilibrium(ChosenDamper damper, double current, const DriveRange& drive) {
   const double force = force_at_rest(*damper.model, current);
+  const bool depends =
+      force_at_rest(*damper.model, drive.low) != force_at_rest(*damper.model, drive.high);
   if (force == 0 || !std::isfinite(force)) return damper;
   damper.model = damper.model->with_offset(-force);
 
   constexpr double kTold = 0.1;  // N
   if (std::abs(force) >= kTold)
-    damper.notes.push_back(damper.name + ": its force at rest, " + format_number(force, 3) +
-                           " N, is borne by the springs: the vehicle starts in equilibrium");
+    damper.notes.push_back(
+        damper.name + ": its force at rest" + (depends ? " at " + drive.text(current) : "") + ", " +
+        format_number(force, 3) + " N, is borne by the springs: the vehicle starts in equilibrium");
   return damper;
 }
 
@@ -246,7 +250,7 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
   const DriveRange drive = drive_range(named, words);
   std::vector<ChosenDamper> chosen;
   for (const ChosenDamper& damper : named)
-    chosen.push_back(in_equilibrium(damper, starting_current(damper, drive, words)));
+    chosen.push_back(in_equilibrium(damper, starting_current(damper, drive, words), drive));
   if (drive.low < drive.high && !(words.current <= drive.high))
     throw Error(words.where, "a drive of " + drive.text(words.current) +
                                  " is beyond the greatest, " + drive.text(drive.high));

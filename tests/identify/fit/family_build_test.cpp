@@ -62,6 +62,14 @@ TEST_CASE("a recording of another damper is told from one of a build") {
       std::dynamic_pointer_cast<const FamilyModel>(family->specialised(twice.front().conditions));
   CHECK_FALSE(measure_build(*member, twice, DriveUnit::Ampere).is_likely());
 
+  // One so far off that no build explains it moves nothing, and is told by what is left.
+  std::vector<Record> far = recorded_build(1);
+  for (Record& record : far)
+    for (double& value : record.find("force")->samples) value *= 20;
+  const BuildReport report = measure_build(*member, far, DriveUnit::Ampere);
+  CHECK_FALSE((report.is_likely() && report.is_told()));
+  CHECK(measure_build(*member, recorded_build(1.05), DriveUnit::Ampere).is_told());
+
   const auto other =
       std::dynamic_pointer_cast<const FamilyModel>(member->specialised({{"gap", 1.3e-3}}));
   CHECK(contains(message_of([&] { measure_build(*other, twice, DriveUnit::Ampere); }),

@@ -145,6 +145,10 @@ TEST_CASE("a plant that cannot be is refused, with what would be right") {
   CHECK(text("[[1,0]]").find("has 1 rows") != std::string::npos);
   CHECK(text("[[1,0],[1,1]]").find("is not symmetric") != std::string::npos);
   CHECK(text("[[1,0],[0,1]]").empty());
+
+  // All that is missing at once.
+  CHECK(message_of([] { parse_plant_set(R"({"title":"t"})", "my.json", "mine"); }) ==
+        "my.json: a plant needs 'source', 'verified', 'reason', 'plant', 'parameters'");
 }
 
 TEST_CASE("a plant's file that states some numbers states all: none is another vehicle's") {

@@ -139,6 +139,7 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
   };
   report.esr_before = esr(member);
   report.esr_after = esr(*report.model);
+  report.left_of_usual = std::sqrt(report.esr_after / 100) / physics.record_error;
   return report;
 }
 

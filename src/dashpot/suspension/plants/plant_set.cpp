@@ -2,6 +2,7 @@
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/require_keys.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/plant.h"
@@ -108,6 +109,11 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
                          const NamedValues& values) {
   const Value document = parse_json(text, source);
   ObjectReader reader(document, "a plant");
+  if (document.find("matrices"))
+    require_keys(document, "a plant", {"source", "verified", "reason", "title"});
+  else
+    require_keys(document, "a plant",
+                 {"source", "verified", "reason", "title", "plant", "parameters"});
   PlantSet set{.name = name,
                .source = reader.string("source"),
                .verified = reader.required("verified").as_bool(),
