@@ -130,7 +130,8 @@ TEST_CASE("bench: sequences that cannot be run are refused") {
 }
 
 TEST_CASE(
-    "bench --family: drawings become a campaign that a family is ranked on in three commands") {
+    "bench --family: drawings become a campaign that a family is ranked on in three commands" *
+    doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string drawings = (folder.path() / "drawings").string(),
                     campaign = (folder.path() / "campaign").string(),

@@ -36,7 +36,8 @@ const Campaigns& campaigns() {
 
 }  // namespace
 
-TEST_CASE("compare: two campaigns of one damper hardly differ, beside their noise") {
+TEST_CASE("compare: two campaigns of one damper hardly differ, beside their noise" *
+          doctest::test_suite("long")) {
   const Campaigns& all = campaigns();
   const ProgramResult result =
       stdout_of_dashpot("compare " + all.before + " " + all.after + " --json");
@@ -87,7 +88,7 @@ TEST_CASE("compare says where recordings leave the range that a model knows") {
   CHECK(other.find("outside_domain")->items().front().find("quantity")->as_string() == "voltage");
 }
 
-TEST_CASE("compare: models alone move over the range of the first") {
+TEST_CASE("compare: models alone move over the range of the first" * doctest::test_suite("long")) {
   const Campaigns& all = campaigns();
   const ProgramResult result =
       run_dashpot("compare " + all.models + "/bingham.json " + all.models + "/tanh_kwok.json");

@@ -69,7 +69,8 @@ TEST_CASE("identify --traces: every record once, apart by what the fit knows of 
   CHECK_CLOSE(row.at(6), row.at(4) - row.at(5), 1e-6, 1e-6);
 }
 
-TEST_CASE("identify --covariance: the matrix belongs to the intervals, in CSV, MAT and JSON") {
+TEST_CASE("identify --covariance: the matrix belongs to the intervals, in CSV, MAT and JSON" *
+          doctest::test_suite("long")) {
   const std::vector<std::string> lines =
       split(read_file(kit().results / "parameters" / "bingham.csv"), '\n');
   const std::vector<double> c0 = numbers_of(lines.at(1)), c1 = numbers_of(lines.at(2));

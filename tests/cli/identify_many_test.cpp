@@ -48,7 +48,8 @@ std::set<std::string> dampers_in(const fs::path& csv, const Chosen& chosen) {
 }  // namespace
 
 TEST_CASE(
-    "identify-many: planted faults are found, sound dampers are not named, a bad one is a row") {
+    "identify-many: planted faults are found, sound dampers are not named, a bad one is a row" *
+    doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string night = (folder.path() / "night").string();
   const ProgramResult result = run_dashpot(many_command("--output " + night));

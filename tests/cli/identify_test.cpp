@@ -104,7 +104,8 @@ TEST_CASE("identify: what the user knows of parameters shapes the fit and stands
   CHECK(f_c.string("form") == "exponential");
 }
 
-TEST_CASE("study recovery: a table, and exit code 3 where intervals do not hold what they claim") {
+TEST_CASE("study recovery: a table, and exit code 3 where intervals do not hold what they claim" *
+          doctest::test_suite("long")) {
   const ProgramResult out =
       stdout_of_dashpot("study recovery --laws bingham --repetitions 40 --seed 2");
   CHECK(out.exit_code == 0);
@@ -147,7 +148,8 @@ TEST_CASE("identify: its models run in the report's page") {
   CHECK(contains(page, "\"title\":\"Beyond the records\""));
 }
 
-TEST_CASE("evaluate: takes off the inertia that the model's fit took off, says so, or keeps it") {
+TEST_CASE("evaluate: takes off the inertia that the model's fit took off, says so, or keeps it" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   std::string text = read_file(small_results() / "models/bingham.json");
   const std::size_t at = text.find("\"sample_time\"");

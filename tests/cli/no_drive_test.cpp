@@ -72,7 +72,8 @@ std::string model_of(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("velocity and force alone are identified, and predict what was left out") {
+TEST_CASE("velocity and force alone are identified, and predict what was left out" *
+          doctest::test_suite("long")) {
   const ModelFile file = load_model(model_of("tanh_kwok"));
   CHECK(file.drive_unit == DriveUnit::None);
   CHECK(file.domain.current_min == 0);

@@ -120,7 +120,8 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
       "--force-error: is not stated; what 'dashpot observe' prints"));
 }
 
-TEST_CASE("observe: dampers of a half car by the names of their struts") {
+TEST_CASE("observe: dampers of a half car by the names of their struts" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string car =
       folder

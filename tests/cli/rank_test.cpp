@@ -122,7 +122,8 @@ TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits
     CHECK_MESSAGE(fs::exists(folder.path() / "models" / (std::string(model) + ".json")), model);
 }
 
-TEST_CASE("rank --plant: a second order, by the ride, on the screen, in JSON and in CSV") {
+TEST_CASE("rank --plant: a second order, by the ride, on the screen, in JSON and in CSV" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProgramResult result =
       stdout_of_dashpot(rank_of("bingham,viscous_dahl", folder.path()) +

@@ -83,7 +83,8 @@ TEST_CASE(
     doctest::test_suite("long")) {
   if (!has_compiler()) return;
   const std::vector<ExampleModel> models = example_models();
-  // Every model once, as FMI 3 or FMI 2 in turn, and one of each kind as both.
+  // One of each kind as both, and every third model as FMI 3 or FMI 2 in turn: laws differ in their
+  // C alone, which is run for each without an FMU.
   struct Task {
     const ExampleModel* example;
     int version;
@@ -94,7 +95,7 @@ TEST_CASE(
   for (std::size_t k = 0; k < models.size(); ++k) {
     const bool first = kinds.insert(models[k].model->kind()).second;
     for (const int version : {2, 3})
-      if (first || (k % 2 == 0) == (version == 2)) tasks.push_back({&models[k], version, {}});
+      if (first || k % 6 == (version == 2 ? 0 : 3)) tasks.push_back({&models[k], version, {}});
   }
   parallel_for(tasks.size(), 0, [&](std::size_t k) {
     ExportOptions options{.sample_time = tasks[k].example->model->feedback_step()};

@@ -211,7 +211,8 @@ goals: [{minimise: wire_diameter}]
   CHECK_CLOSE(robust.designs[0].sensitivity->holding, 0.9, 0, 0.04);
 }
 
-TEST_CASE("design: a second model stands beside, with the largest difference") {
+TEST_CASE("design: a second model stands beside, with the largest difference" *
+          doctest::test_suite("long")) {
   const DesignReport report =
       design(named_request("family_prototype"), {.threads = 1, .second = "physics:plate"});
   REQUIRE(report.designs.size() == 1);

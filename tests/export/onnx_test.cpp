@@ -12,7 +12,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("ONNX: a model without a state is one file, one with a state brings where it begins") {
+TEST_CASE("ONNX: a model without a state is one file, one with a state brings where it begins" *
+          doctest::test_suite("long")) {
   for (const ExampleModel& example : example_models()) {
     if (example.name != "mlp" && example.name != "narx") continue;
     const std::vector<ExportedFile> files = write_onnx(exported(*example.model), {.name = "x"});

@@ -61,7 +61,8 @@ InPlantOptions quick_options() {
 }  // namespace
 
 TEST_CASE(
-    "in plant: a passive network in an oscillator leaves less than the law that it learnt along") {
+    "in plant: a passive network in an oscillator leaves less than the law that it learnt along" *
+    doctest::test_suite("long")) {
   const std::vector<std::string> models{"passive_network"};
   const std::vector<InPlantFit> fits =
       identify_in_plant(models, pushed_setup(), {pushed_on_yielding_spring(5)}, quick_options());

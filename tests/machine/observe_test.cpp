@@ -142,7 +142,8 @@ TEST_CASE("observe: with the true damper, whose states are in the filter, its me
   CHECK(report.warnings.empty());
 }
 
-TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure") {
+TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure" *
+          doctest::test_suite("long")) {
   const ObservedRide ride = spencer_ride(kObservedHalfCar, 4);
   const ObserveOptions options;
   const ObserveReport alike =

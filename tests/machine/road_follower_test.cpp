@@ -93,7 +93,8 @@ TEST_CASE("a road that follows: the channel that it makes is what the rear tyre 
   CHECK(format_json(to_json(parse_in_plant_setup(written, "again.json"))) == written);
 }
 
-TEST_CASE("a road that follows: a half car is found of whose rear wheel no road is measured") {
+TEST_CASE("a road that follows: a half car is found of whose rear wheel no road is measured" *
+          doctest::test_suite("long")) {
   const std::vector<PlantRecording> recordings = {simulated_ride(3, 2e-4)};
   const auto found = [&](const std::string& text) {
     return identify_in_plant(find_law("tanh_kwok"), parse_in_plant_setup(text, "half.yaml"),

@@ -39,7 +39,8 @@ Ranking ranked(Dataset& data) {
 
 }  // namespace
 
-TEST_CASE("the inertia before a load cell is found, taken off the force, and told") {
+TEST_CASE("the inertia before a load cell is found, taken off the force, and told" *
+          doctest::test_suite("long")) {
   const Dataset true_force = recorded(0);
   Dataset data = recorded(5);
   const Ranking ranking = ranked(data);
