@@ -9,7 +9,7 @@ namespace {
 
 /// Made up: the heavier, the calmer; skyhook has half the acceleration and twice the tyre load of
 /// passive.
-Sweep example() {
+Sweep example_sweep() {
   Sweep sweep;
   sweep.request = parse_sweep(
       "name: made up\nplant: savaresi_spelta\nroad: iso8608_fft\n"
@@ -48,7 +48,7 @@ const DocumentTable& table_of(const Document& document, const std::string& secti
 }  // namespace
 
 TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what not to trust") {
-  const Document document = sweep_document(example());
+  const Document document = sweep_document(example_sweep());
   for (const char* part : {"202 vehicles, 2 controllers",
                            "skyhook: weighted acceleration 0.5 (less on 100 % of the vehicles), "
                            "tyre load index 2 (less on 0 %",
@@ -74,7 +74,7 @@ TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what
 }
 
 TEST_CASE("a sweep's tables: a row per ride, inputs and measures with units") {
-  const std::vector<ColumnTable> tables = sweep_tables(example());
+  const std::vector<ColumnTable> tables = sweep_tables(example_sweep());
   REQUIRE(tables.size() == 4);
   CHECK(tables[0].rows() == 404);
   const std::string csv = csv_table(tables[0]);
@@ -83,7 +83,7 @@ TEST_CASE("a sweep's tables: a row per ride, inputs and measures with units") {
   CHECK(csv.find("\nskyhook,B,3,7,303,,,,,,,,,,,,2.5\n") != std::string::npos);
   CHECK(tables[1].rows() == 22);  // two controllers, eleven measures
   CHECK(tables[2].name == "ratios");
-  const Value json = sweep_json(example());
+  const Value json = sweep_json(example_sweep());
   CHECK(json.find("vehicles")->as_number() == 202);
   CHECK(json.find("controllers")->items()[1].find("diverged")->as_number() == 1);
 }

@@ -166,6 +166,8 @@ TEST_CASE("a plant's file that states some numbers states all: none is another v
       made(three + "}") ==
       "my.json, parameters: quarter_car needs 'unsprung_mass' (kg) too; state all that it has, or "
       "{} for the numbers of the table");
+  CHECK(contains(made(R"({"sprung_mass":450,"spring_stiffness":"22 N/mm"})"),
+                 "needs 'unsprung_mass' (kg), 'tyre_stiffness' (N/m) too"));
   CHECK(made(three + R"(,"unsprung_mass":45})").empty());
   CHECK(made(three + "}", {{"unsprung_mass", 45}}).empty());
   CHECK(made("{}").empty());

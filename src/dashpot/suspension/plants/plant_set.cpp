@@ -15,13 +15,14 @@ namespace {
 /// named would be those of the table, of another vehicle.
 void require_stated(const PlantModel& model, const NamedValues& stated, const std::string& where) {
   constexpr std::string_view kOfStops = "stop_stiffness";  // there are none unless stated
+  std::vector<std::string> missing;
   for (const ParameterRow& row : model.parameters)
     if (row.value > 0 && row.name != kOfStops &&
         std::ranges::none_of(stated, [&](const auto& one) { return one.first == row.name; }))
-      throw Error(where,
-                  std::string(model.name) + " needs '" + std::string(row.name) + "' (" +
-                      std::string(row.unit) + ") too",
-                  "state all that it has, or {} for the numbers of the table");
+      missing.push_back("'" + std::string(row.name) + "' (" + std::string(row.unit) + ")");
+  if (missing.empty()) return;
+  throw Error(where, std::string(model.name) + " needs " + join(missing, ", ") + " too",
+              "state all that it has, or {} for the numbers of the table");
 }
 
 Plant from_parameters(const PlantModel& model, const Value& parameters,
