@@ -383,8 +383,7 @@ Document observe_document(const ObserveReport& report, const std::vector<PlantRe
             format_number(100 * f.error / f.span, 3), format_number(100 * f.inside, 3));
   }
 
-  if (!report.warnings.empty())
-    document.verdict += " What the sensors show speaks against these bands: see the warnings.";
+  if (!report.warnings.empty()) document.verdict += " These bands are in doubt: see the warnings.";
 
   DocumentSection section{.name = "observed", .title = "Observed", .paragraphs = {}};
   section.remarks = report.warnings;

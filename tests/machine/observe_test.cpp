@@ -142,6 +142,16 @@ TEST_CASE("observe: with the true damper, whose states are in the filter, its me
   CHECK(report.warnings.empty());
 }
 
+TEST_CASE("observe: a plant that states no sensor's noise is told what that does to the bands" *
+          doctest::test_suite("long")) {
+  ObservedRide ride = spencer_ride(kObservedCar, 1);
+  for (PlantSensor& sensor : ride.setup.sensors) sensor.noise = 0;
+  const ObserveReport report =
+      observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, {});
+  REQUIRE(!report.warnings.empty());
+  CHECK(contains(report.warnings.back(), "the plant states no sensor's noise"));
+}
+
 TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure" *
           doctest::test_suite("long")) {
   const ObservedRide ride = spencer_ride(kObservedHalfCar, 4);

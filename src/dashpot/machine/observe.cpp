@@ -423,6 +423,12 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
+  if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
+    report.warnings.push_back(
+        "the plant states no sensor's noise: it was found beside the law's own error, each of "
+        "which "
+        "may pass for the other, and bands of the force may hold half of what they say; state what "
+        "'identify --in' found, as 'noise: 0.05' at a sensor");
   report.seconds = cpu_seconds() - started;
   return report;
 }
