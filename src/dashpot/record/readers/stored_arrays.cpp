@@ -122,8 +122,8 @@ bool take_stored_arrays(const TakeBytes& take, std::size_t most_bytes, StoredArr
 }
 
 bool take_stored_file(const TakeBytes& take, std::string& to) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 32;
-  StoredReader reader(take, kMostBytes);
+  constexpr std::size_t kMostOfAnArray = std::size_t{1} << 32;
+  StoredReader reader(take, kMostOfAnArray);
   char mark = 0;
   return reader.greeting() && reader.mark(mark) && mark == kStoredFile && reader.text(to) &&
          reader.mark(mark) && mark == kStoredEnd;
