@@ -13,6 +13,7 @@
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/dataset.h"
+#include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/report/track_figure.h"
 #include "dashpot/report/words.h"
 #include "data.h"
@@ -100,23 +101,16 @@ Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverO
 void warn_beyond_data(const Damper& damper, const DriverOptions& driver, const Motion& motion,
                       Console& console) {
   if (!damper.domain) return;
-  const auto look = [&](const std::string& name, const std::string& unit,
-                        const std::vector<double>& values, double low, double high) {
-    constexpr double kMargin = 0.01;  // of the range: rounding and noise
-    const double margin = kMargin * (high - low);
-    const auto outside = std::ranges::count_if(
-        values, [&](double value) { return value < low - margin || value > high + margin; });
-    if (outside > 0)
-      console.warn(
-          percent_text(100 * static_cast<double>(outside) / static_cast<double>(values.size())) +
-          " % of the time the " + name + " is outside the model's range " + format_number(low, 3) +
-          " ... " + format_number(high, 3) + " " + unit + ": it extrapolates there");
-  };
   const Domain& domain = *damper.domain;
-  look("velocity", "m/s", motion.velocity, domain.velocity_min, domain.velocity_max);
-  if (damper.model->needs_displacement())
-    look("displacement", "m", motion.displacement, domain.displacement_min,
-         domain.displacement_max);
+  std::vector<DamperInput> inputs;
+  for (std::size_t k = 0; k < motion.size(); ++k)
+    inputs.push_back({.displacement = motion.displacement[k],
+                      .velocity = motion.velocity[k],
+                      .current = domain.current_min});
+  for (const Extrapolation& e : extrapolations(*damper.model, domain, damper.drive_unit, {inputs}))
+    console.warn(percent_text(100 * e.share) + " % of the time the " + e.quantity +
+                 " is outside the model's range " + format_number(e.low, 3) + " ... " +
+                 format_number(e.high, 3) + " " + e.unit + ": it extrapolates there");
 
   constexpr double kRounding = 1e-9;
   if (driver.current_max > domain.current_max * (1 + kRounding))

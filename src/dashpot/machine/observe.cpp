@@ -425,9 +425,9 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
     report.warnings.push_back(
-        "the plant states no sensor's noise: it was found beside the law's own error, each of "
-        "which "
-        "may pass for the other, and bands of the force may hold half of what they say; state what "
+        "the plant states no sensor's noise: it was found beside the law's own error, each may "
+        "pass "
+        "for the other, and bands of the force may hold far less than they say; state what "
         "'identify --in' found, as 'noise: 0.05' at a sensor");
   report.seconds = cpu_seconds() - started;
   return report;

@@ -27,8 +27,6 @@ NameAndUnit name_and_unit(const RawColumn& column) {
           std::string(trim(text.substr(open + 1, text.size() - open - 2)))};
 }
 
-constexpr std::string_view kNoUnit = "taken as SI: no unit given";  ///< of a column, in its origin
-
 bool is_time(std::string_view name) {
   const std::string word = lower(name);
   return word == "time" || word == "t" || word == "t_s" || word == "time_s";
@@ -89,10 +87,8 @@ const Channel& PlantRecording::channel(std::string_view wanted) const {
 std::string without_units(std::span<const PlantRecording> recordings) {
   std::vector<std::string> names;
   for (const PlantRecording& recording : recordings)
-    for (const Channel& channel : recording.channels)
-      if (channel.origin.ends_with(kNoUnit) &&
-          std::ranges::find(names, channel.name) == names.end())
-        names.push_back(channel.name);
+    for (const std::string& name : recording.without_unit)
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   if (names.empty()) return {};
   return join(names, ", ") + ": no unit in the columns' names, taken as SI; name them as '" +
          names.front() + " [mm]'";
@@ -143,7 +139,8 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
     const std::string where = table.file + ", column '" + column.name + "'";
     Channel channel{.name = name, .unit = "SI", .samples = std::move(column.values), .origin = {}};
     if (unit.empty()) {
-      channel.origin = "column " + name + ", " + std::string(kNoUnit);
+      channel.origin = "column " + name + ", taken as SI: no unit given";
+      recording.without_unit.push_back(name);
     } else {
       const std::optional<Unit> known = parse_sensor_unit(unit);
       const Unit of = known ? *known : require_unit(unit, where);

@@ -17,6 +17,7 @@ struct PlantRecording {
   double sample_time = 0;   ///< s
   std::size_t samples = 0;  ///< of each channel
   std::vector<Channel> channels;
+  std::vector<std::string> without_unit;  ///< channels whose columns stated none
 
   /// Throws Error that names the channels there are.
   const Channel& channel(std::string_view wanted) const;

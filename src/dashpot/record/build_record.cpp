@@ -11,6 +11,7 @@
 #include "dashpot/record/differentiate.h"
 #include "dashpot/record/inertia.h"
 #include "dashpot/record/integrate.h"
+#include "dashpot/record/side_passes.h"
 #include "dashpot/record/time_base.h"
 
 namespace dashpot {
@@ -294,28 +295,27 @@ void doubt_one_test(Record& record) {
   constexpr double kRest = 1, kStill = 0.005, kBand = 0.2;  // s, of the half range
   const std::vector<double>& x = motion_channel(record).samples;
   const auto [low, high] = std::ranges::minmax(x);
-  const double half = 0.5 * (high - low), middle = 0.5 * (high + low);
+  const double half = 0.5 * (high - low);
   if (half == 0) return;
 
   // Each stretch that stays near its first sample is a rest, or a part of a motion.
-  std::size_t motions = 0, passes = 0;
-  int side = 0;
+  std::size_t motions = 0;
   double longest = 0;
+  const SidePasses none{0.5 * (high + low), kBand * half};
+  SidePasses passes = none;
   const auto end_motion = [&] {
     constexpr std::size_t kCycle = 3;  // to one side, the other and back
-    motions += passes >= kCycle;
-    passes = 0, side = 0;
+    motions += passes.count >= kCycle;
+    passes = none;
   };
   for (std::size_t k = 0, end = 0; k < x.size(); k = end) {
     for (end = k + 1; end < x.size() && std::abs(x[end] - x[k]) <= kStill * half;) ++end;
     if (const double rest = record.time[end - 1] - record.time[k]; rest >= kRest) {
-      if (motions + passes > 0 && end < x.size()) longest = std::max(longest, rest);
+      if (motions + passes.count > 0 && end < x.size()) longest = std::max(longest, rest);
       end_motion();
       continue;
     }
-    const int now = std::abs(x[k] - middle) <= kBand * half ? side : x[k] > middle ? 1 : -1;
-    passes += now != side;
-    side = now;
+    passes.see(x[k]);
   }
   end_motion();
 

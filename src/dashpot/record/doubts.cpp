@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "dashpot/base/text.h"
+#include "dashpot/record/side_passes.h"
 
 namespace dashpot {
 namespace {
@@ -109,16 +110,9 @@ std::optional<std::string> dead_displacement(const Record& record, const Samples
     const Channel* channel = record.find(name);
     if (!channel || channel->origin.starts_with("derived")) continue;
     const auto [low, high] = std::ranges::minmax(channel->samples);
-    const double middle = 0.5 * (low + high), band = kBand * 0.5 * (high - low);
-    std::size_t passes = 0;
-    int side = 0;
-    for (std::size_t k = still.first; k < still.end; ++k) {
-      const double off = channel->samples[k] - middle;
-      if (std::abs(off) <= band || (off > 0 ? 1 : -1) == side) continue;
-      side = off > 0 ? 1 : -1;
-      ++passes;
-    }
-    if (passes >= kPasses)
+    SidePasses passes{0.5 * (low + high), kBand * 0.5 * (high - low)};
+    for (std::size_t k = still.first; k < still.end; ++k) passes.see(channel->samples[k]);
+    if (passes.count >= kPasses)
       return "the displacement stands still " + between(record, still) +
              ", the end of the record, while the " + std::string(name) +
              " goes on: the sensor died; 'cut' in a dataset file leaves that part out";

@@ -105,18 +105,15 @@ double uniform_step(std::span<const double> stamps) {
   const double digit = printed_digit(stamps);
   const int digits = digit > 0 ? significant_digits(stamps) : 0;
   const bool single = digit == 0 && single_precision(stamps);
-  const double coarsest = single       ? single_spacing(stamps.back())
-                          : digits > 0 ? std::pow(10.0, 1 - digits) * power_of_ten(stamps.back())
-                                       : digit;
+  const auto place = [&](double t) {
+    if (single) return single_spacing(t);
+    return digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
+  };
   // Coarse digits (0 1 2 4 5) cannot show that a gap is rounding: then only an exact grid is
   // uniform.
-  const bool rounded = std::max(digit, coarsest) < 0.5 * line.step;
+  const bool rounded = place(stamps.back()) < 0.5 * line.step;
   const auto tolerance = [&](double t) {
-    const double place = single ? single_spacing(t)
-                         : digits > 0
-                             ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t))
-                             : digit;
-    return (rounded ? 0.6 * place : 0) + 1e-6 * line.step + 1e-15 * std::abs(t);
+    return (rounded ? 0.6 * place(t) : 0) + 1e-6 * line.step + 1e-15 * std::abs(t);
   };
 
   // All stamps must lie on the line within that rounding.

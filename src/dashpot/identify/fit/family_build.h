@@ -24,8 +24,9 @@ struct BuildReport {
   /// the distance that one in a hundred builds exceeds.
   double distance = 0, unlikely = 0;
   bool is_likely() const { return distance <= unlikely; }
-  /// What this build leaves of the force, in the model's errors of a record; more than 2.58 one
-  /// record in a hundred leaves. A recording that the family tells nothing of moves no deviation.
+  /// What this build leaves of the force, in the model's errors of a record; one in a hundred would
+  /// leave more than 2.58 if these were normal, which nobody has counted. A recording that the
+  /// family tells nothing of moves no deviation.
   double left_of_usual = 0;
   bool is_told() const { return left_of_usual <= 2.58; }
 };

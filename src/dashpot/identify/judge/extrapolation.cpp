@@ -19,13 +19,12 @@ struct Quantity {
   double DamperInput::* field;
 };
 
-std::vector<Quantity> quantities(const ModelFile& file) {
-  const Domain& d = file.domain;
+std::vector<Quantity> quantities(const DamperModel& model, const Domain& d, DriveUnit drive_unit) {
   std::vector<Quantity> all = {
       {"velocity", "m/s", d.velocity_min, d.velocity_max, &DamperInput::velocity},
-      {drive_channel(file.drive_unit), to_string(file.drive_unit), d.current_min, d.current_max,
+      {drive_channel(drive_unit), to_string(drive_unit), d.current_min, d.current_max,
        &DamperInput::current}};
-  if (file.model->needs_displacement())
+  if (model.needs_displacement())
     all.push_back(
         {"displacement", "m", d.displacement_min, d.displacement_max, &DamperInput::displacement});
   return all;
@@ -54,9 +53,15 @@ std::vector<Extrapolation> extrapolations(const ModelFile& file, const Dataset& 
   std::vector<std::vector<DamperInput>> records;
   for (const Record& record : dataset.records)
     records.push_back(damper_inputs(record, dataset.drive_unit));
+  return extrapolations(*file.model, file.domain, file.drive_unit, records);
+}
+
+std::vector<Extrapolation> extrapolations(const DamperModel& model, const Domain& domain,
+                                          DriveUnit drive_unit,
+                                          const std::vector<std::vector<DamperInput>>& motions) {
   std::vector<Extrapolation> found;
-  for (const Quantity& quantity : quantities(file)) {
-    Extrapolation e = measure(quantity, records);
+  for (const Quantity& quantity : quantities(model, domain, drive_unit)) {
+    Extrapolation e = measure(quantity, motions);
     if (e.share > 0) found.push_back(std::move(e));
   }
   return found;

@@ -18,6 +18,10 @@ struct Extrapolation {
 
 /// One per quantity of which some samples lie outside (by more than 1 % of the range).
 std::vector<Extrapolation> extrapolations(const ModelFile& file, const Dataset& dataset);
+/// The same of motions that are no recordings.
+std::vector<Extrapolation> extrapolations(const DamperModel& model, const Domain& domain,
+                                          DriveUnit drive_unit,
+                                          const std::vector<std::vector<DamperInput>>& motions);
 
 /// "12 % of the samples have a velocity outside ...: the model extrapolates there".
 std::string describe(const Extrapolation& extrapolation);
