@@ -21,12 +21,14 @@ class FitStore;
 struct Part;
 struct PartReport;
 
-/// How far a model's pooled ESR lies behind that of another one, over the same left-out units.
-struct PairedDifference {
-  double esr = 0;            ///< %
-  double low = 0, high = 0;  ///< %, its 90 % interval
+/// How many times a model's ESR is that of another one, typical of a left-out unit: the geometric
+/// mean over the units that both were judged on.
+struct PairedRatio {
+  double times = 1;
+  double low = 1, high = 1;  ///< its 90 % interval
   std::size_t units = 0;     ///< that it comes from
-  bool holds_zero() const { return low <= 0 && high >= 0; }
+  /// Whether the units show that the model is worse.
+  bool is_worse() const { return low > 1; }
 };
 
 /// A figure, the median of what it may be, with its 90 % interval.
@@ -91,7 +93,7 @@ struct RankedModel {
   Dissipation dissipation;          ///< the final model, within its domain
   /// %, what each unit (Ranking::unit) adds to the pooled ESR; empty where a record diverged.
   std::vector<double> esr_parts;
-  std::optional<PairedDifference> behind;  ///< to the first model; none for itself
+  std::optional<PairedRatio> over_first;  ///< none for the first model itself
   /// Where the models were ridden: whoever rode them states it here.
   std::optional<PredictedRide> ride;
 };
@@ -129,7 +131,7 @@ struct Ranking {
   /// Best first, by left-out ESR with offsets; then those that do not forget or feed energy in,
   /// then those that diverged, then failed ones.
   std::vector<RankedModel> models;
-  std::string unit;  ///< over which differences are taken: "division", "block" ...
+  std::string unit;  ///< over which models are compared: "division", "block" ...
   /// Of a model that was fitted elsewhere: how many of the records its fit has seen.
   std::optional<std::size_t> seen;
   /// Where models were chosen within a budget: whoever chose them states it here.
@@ -140,8 +142,8 @@ struct Ranking {
   std::size_t kept_fits = 0;            ///< found in the store
   double wall_seconds = 0;              ///< from the first fit to the last figure
 
-  /// The models that may be called best: the first, and those whose difference to it cannot be told
-  /// from 0, in their order. One: the winner. None: no model can be recommended.
+  /// The models that may be called best: the first, and those that are not shown to be worse, in
+  /// their order. One: the winner. None: no model can be recommended.
   std::vector<const RankedModel*> leaders() const;
   /// The models whose ride is predicted, the least error first.
   std::vector<const RankedModel*> by_ride() const;

@@ -100,8 +100,8 @@ class Identification(InFolder):
         self.assertEqual(force.shape, half_width.shape)
         self.assertIn("Bingham", str(ranking))
         self.assertEqual(ranking.leaders[0], "bingham")
-        behind = ranking.report["models"][1]["behind"]
-        self.assertLessEqual(behind["low"], behind["esr_percent"])
+        ratio = ranking.report["models"][1]["over_first"]
+        self.assertLessEqual(ratio["low"], ratio["times"])
         ranking.save_report(str(self.folder / "report.html"))
         self.assertIn("<html", (self.folder / "report.html").read_text())
         with self.assertRaises(dashpot.Error):

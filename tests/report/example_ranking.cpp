@@ -207,7 +207,7 @@ ExampleRanking example_ranking(std::size_t samples) {
     model.forgetting = {
         .is_tested = true, .seconds = 0.8, .share_left = 1e-4, .record = "a record"};
     if (&flaw == &kFlaws[1])
-      model.behind = PairedDifference{.esr = 1.6, .low = 0.4, .high = 2.8, .units = 4};
+      model.over_first = PairedRatio{.times = 3.2, .low = 1.4, .high = 7.3, .units = 4};
     example.ranking.models.push_back(std::move(model));
   }
   return example;

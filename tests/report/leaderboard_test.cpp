@@ -73,9 +73,9 @@ TEST_CASE("whether a model forgets, and how far it is behind, in a word") {
   CHECK(forgetting_text({.is_tested = true, .seconds = 9, .share_left = 0.031}) == "no, 3.1 %");
   CHECK(forgetting_text({.is_tested = true, .seconds = 9, .share_left = INFINITY}) == "diverges");
   RankedModel model;
-  CHECK(behind_text(model) == "-");
-  model.behind = PairedDifference{.esr = 0.2, .low = -0.051, .high = 0.45, .units = 5};
-  CHECK(behind_text(model) == "-0.05 ... 0.45");
+  CHECK(over_first_text(model) == "-");
+  model.over_first = PairedRatio{.times = 1.2, .low = 0.961, .high = 1.49, .units = 5};
+  CHECK(over_first_text(model) == "0.961 ... 1.49");
 }
 
 TEST_CASE("leaderboard as Markdown and CSV: no date, every figure") {

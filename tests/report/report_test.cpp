@@ -131,7 +131,7 @@ TEST_CASE("verdict: no winner is named where the data name none") {
   auto& models = example.ranking.models;
   models[0].left_out.pooled.esr = 2;
   models[1].left_out.pooled.esr = 2.1;
-  models[1].behind = PairedDifference{.esr = 0.1, .low = -0.4, .high = 0.6, .units = 4};
+  models[1].over_first = PairedRatio{.times = 1.1, .low = 0.8, .high = 1.5, .units = 4};
   REQUIRE(example.ranking.leaders().size() == 2);
   const std::string tied = verdict(example.ranking);
   CAPTURE(tied);
@@ -140,10 +140,10 @@ TEST_CASE("verdict: no winner is named where the data name none") {
       "recordings. Modified Bouc-Wen (Spencer) has the smallest error: on recordings that it has "
       "not seen it leaves 2.0 % of the force's power unexplained"));
   CHECK(!contains(tied, "best"));
-  CHECK(contains(difference_note(example.ranking).value_or(""), "over 4 divisions"));
+  CHECK(contains(comparison_note(example.ranking).value_or(""), "over 4 divisions"));
 
   // A model without an interval cannot be told apart either.
-  models[1].behind.reset();
+  models[1].over_first.reset();
   CHECK(example.ranking.leaders().size() == 2);
 
   // With one model there is nothing to be best of; with one usable model, nothing beside it.
@@ -152,7 +152,7 @@ TEST_CASE("verdict: no winner is named where the data name none") {
   models.pop_back();
   CHECK(verdict(example.ranking)
             .starts_with("Modified Bouc-Wen (Spencer): on recordings that it has not seen it"));
-  CHECK(!difference_note(example.ranking));
+  CHECK(!comparison_note(example.ranking));
 
   // Parts of recordings are said to be parts.
   example.ranking.leave_out.by = LeaveOut::By::Blocks;
@@ -165,7 +165,7 @@ TEST_CASE("verdict: a model that does not forget is not recommended, however sma
   models[0].left_out.pooled.esr = 2;
   std::swap(models[0], models[1]);  // as rank() has them: those that do not forget come last
   models[1].forgetting.share_left = 0.07;
-  models[0].behind.reset();
+  models[0].over_first.reset();
   models[0].left_out.pooled.esr = 3;
   REQUIRE(example.ranking.leaders().size() == 1);
   const std::string said = verdict(example.ranking);
@@ -185,7 +185,7 @@ TEST_CASE("verdict: a model that feeds energy in is not recommended, and says wh
   ExampleRanking example = example_ranking();
   auto& models = example.ranking.models;
   std::swap(models[0], models[1]);  // as rank() has them: those that feed energy in come last
-  models[0].behind.reset();
+  models[0].over_first.reset();
   models[0].left_out.pooled.esr = 3;
   models[1].left_out.pooled.esr = 2;
   models[1].dissipation = {.is_tested = true,

@@ -80,14 +80,14 @@ class Ranking:
         return self.report.get("budget", {}).get("untried", [])
 
     def frame(self):
-        """A line per model (pandas): errors on the recordings left out, and the 90 % interval of how far its ESR
-        lies behind that of the first."""
+        """A line per model (pandas): errors on the recordings left out, and the 90 % interval of how many times
+        the first model's ESR its own is, on a typical part of them."""
         import pandas
 
         lines = []
         for model in self.report["models"]:
-            behind = model["behind"] or {}
-            interval = {f"behind_{end}_percent": behind.get(end, float("nan")) for end in ("low", "high")}
+            ratio = model["over_first"] or {}
+            interval = {f"over_first_{end}": ratio.get(end, float("nan")) for end in ("low", "high")}
             lines.append({"model": model["name"], **model["left_out"]["pooled"], **interval})
         return pandas.DataFrame(lines).set_index("model")
 

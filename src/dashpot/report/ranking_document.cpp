@@ -21,9 +21,9 @@ constexpr std::string_view kLegend =
     "samples; Mean, Worst: by record; Train: on the records of the fit. Slow: RMS error below 5 % "
     "of the top speed. Energy: of the dissipated energy, by record. Par.: fitted numbers. Fit: CPU "
     "time of all fits. Bounded: the force stays within ten spans at twice the stroke and speed of "
-    "the data. Behind: ESR behind the first model's, 90 % interval of the paired difference; "
-    "Apart: "
-    "whether it excludes 0. Forgets: runs from different states meet after so long.";
+    "the data. x first: how many times the first model's ESR its own is on a typical left-out "
+    "unit, 90 % interval; Apart: whether it lies above 1. Forgets: runs from different states meet "
+    "after so long.";
 
 /// Whether the error that the best model leaves follows the acceleration.
 std::vector<std::string> inertia_remarks(const Ranking& ranking) {
@@ -56,7 +56,7 @@ DocumentSection ranking_section(const Ranking& ranking) {
       model_table(ranking, chosen_columns(ranking, {{"model", 0, kText},
                                                     {"title", 0, kPage},
                                                     {"esr_percent"},
-                                                    {"behind_percent", 2},
+                                                    {"over_first", 2},
                                                     {"told_apart"},
                                                     {"validation_esr_percent"},
                                                     {"rmse_N"},
@@ -82,7 +82,7 @@ DocumentSection ranking_section(const Ranking& ranking) {
 
   // A click on a row shows the model below.
   table.leads_to = "closer";
-  table.note = difference_note(ranking).value_or("");
+  table.note = comparison_note(ranking).value_or("");
   if (const std::optional<std::string> one_step = one_step_note(ranking))
     table.note += (table.note.empty() ? "" : " ") + *one_step;
   std::vector<std::string> paragraphs;
@@ -304,7 +304,7 @@ Document leaderboard_document(const ReportInput& input) {
        .tables = {model_table(ranking, {{"place"},
                                         {"model"},
                                         {"esr_percent"},
-                                        {"behind_percent", 2},
+                                        {"over_first", 2},
                                         {"told_apart", 1},
                                         {"training_esr_percent"},
                                         {"mean_esr_percent", 1},

@@ -149,20 +149,21 @@ const std::vector<ModelColumn>& model_columns() {
               "neither is recommended",
               status_text)};
 
-    // Against the first model, sorted by the difference itself.
-    all.push_back({"behind_percent",
-                   {.title = "Behind %",
+    // Against the first model, sorted by the ratio itself.
+    all.push_back({"over_first",
+                   {.title = "x first",
                     .numeric = true,
-                    .hint = "90 % interval of the paired difference of its ESR to the first "
-                            "model's"},
+                    .hint = "How many times the first model's ESR its own is on a typical left-out "
+                            "unit: 90 % interval"},
                    [](Model m) {
-                     return DocumentCell{behind_text(m), m.behind ? m.behind->esr : kNoNumber};
+                     return DocumentCell{over_first_text(m),
+                                         m.over_first ? m.over_first->times : kNoNumber};
                    }});
     all.push_back(words("told_apart", "Apart",
-                        "Whether the data tell the model from the first one: that interval does "
-                        "not hold 0",
+                        "Whether the data show that the model is worse than the first one: that "
+                        "interval lies above 1",
                         [](Model m) -> std::string {
-                          return !m.behind ? "-" : m.behind->holds_zero() ? "no" : "yes";
+                          return !m.over_first ? "-" : m.over_first->is_worse() ? "yes" : "no";
                         }));
     all.push_back({"forgets",
                    {.title = "Forgets",
@@ -451,9 +452,10 @@ std::string interval_sentence(const Evaluation& evaluation) {
       unit_name("N"), percent_text(all.mean_width_percent()));
 }
 
-std::string behind_text(const RankedModel& model) {
-  if (!model.behind) return "-";
-  return percent_text(model.behind->low) + " ... " + percent_text(model.behind->high);
+std::string over_first_text(const RankedModel& model) {
+  if (!model.over_first) return "-";
+  const PairedRatio& ratio = *model.over_first;
+  return format_number(ratio.low, 3) + " ... " + format_number(ratio.high, 3);
 }
 
 std::string forgetting_text(const Forgetting& result) {
@@ -503,8 +505,8 @@ std::string csv_leaderboard(const ReportInput& input) {
   for (const char* name : kFigures) titles.push_back(csv_column(name, input.file_units).first);
   std::string text =
       "rank,model,usable," + join(titles, ",") +
-      ",stress_finite,stress_largest_spans,diverged_records,behind_percent,behind_low_percent,"
-      "behind_high_percent,told_apart,forgets,forgets_after_s,dissipates,least_share,"
+      ",stress_finite,stress_largest_spans,diverged_records,over_first_times,over_first_low,"
+      "over_first_high,told_apart,forgets,forgets_after_s,dissipates,least_share,"
       "wall_seconds_of_all" +
       predicted_csv_titles(input.ranking) + "\n";
 
@@ -520,14 +522,14 @@ std::string csv_leaderboard(const ReportInput& input) {
     fields.insert(fields.end(),
                   {model.stress.finite ? "yes" : "no", format_exact(model.stress.largest_share),
                    std::to_string(model.left_out.diverged)});
-    for (double PairedDifference::* figure :
-         {&PairedDifference::esr, &PairedDifference::low, &PairedDifference::high})
-      fields.push_back(model.behind ? format_exact((*model.behind).*figure) : "");
+    for (double PairedRatio::* figure :
+         {&PairedRatio::times, &PairedRatio::low, &PairedRatio::high})
+      fields.push_back(model.over_first ? format_exact((*model.over_first).*figure) : "");
     const Forgetting& forgetting = model.forgetting;
     fields.insert(fields.end(),
-                  {!model.behind                ? ""
-                   : model.behind->holds_zero() ? "no"
-                                                : "yes",
+                  {!model.over_first              ? ""
+                   : model.over_first->is_worse() ? "yes"
+                                                  : "no",
                    forgetting.is_forgotten() ? "yes" : "no",
                    forgetting.is_tested ? format_exact(forgetting.seconds) : "",
                    model.dissipation.dissipates() ? "yes" : "no",

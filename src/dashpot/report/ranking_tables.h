@@ -43,8 +43,8 @@ DocumentTable record_table(const Evaluation& evaluation,
 
 /// "The 90 % interval of the model covers 88.1 % of the samples, ..."; empty without intervals.
 std::string interval_sentence(const Evaluation& evaluation);
-/// "-0.12 ... 0.45": the interval of a model's difference to the first; "-" where there is none.
-std::string behind_text(const RankedModel& model);
+/// "0.883 ... 1.42": how many times the first model's ESR its own is; "-" where there is none.
+std::string over_first_text(const RankedModel& model);
 /// "0.8 s", "no, 3.1 %"; "-" when the model has no memory or was not tested.
 std::string forgetting_text(const Forgetting& result);
 std::string dissipation_text(const Dissipation& result);

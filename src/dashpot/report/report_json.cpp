@@ -8,7 +8,7 @@
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/information.h"
-#include "dashpot/identify/rank/paired_difference.h"
+#include "dashpot/identify/rank/paired_ratio.h"
 #include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/residual_section.h"
@@ -77,14 +77,14 @@ Value forgetting_json(const Forgetting& result) {
                         {"record", result.record}});
 }
 
-Value behind_json(const std::optional<PairedDifference>& behind) {
-  if (!behind) return {};
-  return Value::object({{"esr_percent", behind->esr},
-                        {"low", behind->low},
-                        {"high", behind->high},
+Value over_first_json(const std::optional<PairedRatio>& ratio) {
+  if (!ratio) return {};
+  return Value::object({{"times", ratio->times},
+                        {"low", ratio->low},
+                        {"high", ratio->high},
                         {"level_percent", 100 * kPairedLevel},
-                        {"units", behind->units},
-                        {"told_apart", !behind->holds_zero()}});
+                        {"units", ratio->units},
+                        {"told_apart", ratio->is_worse()}});
 }
 
 Value information_json(const RankedModel& model,
@@ -119,7 +119,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                      {"nanoseconds_per_step", model.nanoseconds_per_step},
                      {"seconds", model.seconds},
                      {"interval", band_json(model.band)},
-                     {"behind", behind_json(model.behind)},
+                     {"over_first", over_first_json(model.over_first)},
                      {"esr_parts_percent", Value::array(model.esr_parts)},
                      {"forgetting", forgetting_json(model.forgetting)},
                      {"dissipation", to_json(model.dissipation)},

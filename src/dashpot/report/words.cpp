@@ -149,16 +149,17 @@ std::string protocol(const Ranking& ranking) {
       *ranking.seen, counted(ranking.models.front().left_out.records.size(), "record"));
 }
 
-std::optional<std::string> difference_note(const Ranking& ranking) {
+std::optional<std::string> comparison_note(const Ranking& ranking) {
   const auto compared = std::ranges::find_if(
-      ranking.models, [](const RankedModel& model) { return model.behind.has_value(); });
+      ranking.models, [](const RankedModel& model) { return model.over_first.has_value(); });
   if (compared == ranking.models.end()) return std::nullopt;
   return fmt::format(
-      "Behind: how far the ESR of a model lies behind that of the first, with the 90 % interval of "
-      "the paired difference over {}. Where it holds 0, the two cannot be told apart.",
+      "x first: how many times the ESR of the first model that of a model is on a typical {}, "
+      "the 90 % interval over {}. Unless it lies above 1, the two cannot be told apart.",
+      ranking.unit,
       ranking.unit == "stretch of time"
-          ? fmt::format("{} stretches of time", compared->behind->units)
-          : counted(compared->behind->units, ranking.unit));
+          ? fmt::format("{} stretches of time", compared->over_first->units)
+          : counted(compared->over_first->units, ranking.unit));
 }
 
 std::optional<std::string> inertia_note(const Ranking& ranking) {

@@ -37,8 +37,8 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds);
 /// The same of a ranking, whose model may have been fitted elsewhere.
 std::string protocol_title(const Ranking& ranking);
 std::string protocol(const Ranking& ranking);
-/// What the interval of a model's difference to the first says; nothing for a single model.
-std::optional<std::string> difference_note(const Ranking& ranking);
+/// What the interval of a model's ratio to the first says; nothing for a single model.
+std::optional<std::string> comparison_note(const Ranking& ranking);
 /// What a budget of time left untried and what that would cost, or that it was too small for any;
 /// nothing where all were tried.
 std::optional<std::string> budget_note(const Ranking& ranking);

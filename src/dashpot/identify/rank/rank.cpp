@@ -25,7 +25,7 @@
 #include "dashpot/identify/rank/fit_identity.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/rank/information.h"
-#include "dashpot/identify/rank/paired_difference.h"
+#include "dashpot/identify/rank/paired_ratio.h"
 #include "dashpot/identify/rank/rank_and_tell.h"
 #include "dashpot/record/inertia.h"
 
@@ -96,7 +96,7 @@ double expected_cost(const std::string& model, const Record& record, DriveUnit d
   return is_law(model) ? of_law : of_law + kNetwork;
 }
 
-/// What differences between models are taken over.
+/// What models are compared over.
 std::string unit_of(const LeaveOut& leave_out, const std::vector<Fold>& folds) {
   if (folds.size() > 1) return leave_out.by == LeaveOut::By::Blocks ? "block" : "division";
   return folds.front().left_out.size() < kLeastUnits ? "stretch of time" : "record";
@@ -435,7 +435,7 @@ class RankingRun {
     if (models.empty() || !is_recommendable(models.front())) return;
     for (auto model = models.begin() + 1; model != models.end(); ++model)
       if (is_usable(*model) && !model->esr_parts.empty())
-        model->behind = paired_difference(model->esr_parts, models.front().esr_parts);
+        model->over_first = paired_ratio(model->esr_parts, models.front().esr_parts);
   }
 
   const Dataset& dataset_;
@@ -467,7 +467,8 @@ bool is_recommendable(const RankedModel& model) {
 std::vector<const RankedModel*> Ranking::leaders() const {
   std::vector<const RankedModel*> leaders;
   for (const RankedModel& model : models)
-    if (is_recommendable(model) && (leaders.empty() || !model.behind || model.behind->holds_zero()))
+    if (is_recommendable(model) &&
+        (leaders.empty() || !model.over_first || !model.over_first->is_worse()))
       leaders.push_back(&model);
   return leaders;
 }

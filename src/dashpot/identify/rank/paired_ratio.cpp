@@ -1,13 +1,18 @@
-#include "dashpot/identify/rank/paired_difference.h"
+#include "dashpot/identify/rank/paired_ratio.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "dashpot/identify/judge/left_out_parts.h"
 #include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
 namespace {
+
+/// %: what is less than that of the force's variation is rounding, and as good as none.
+constexpr double kRounding = 1e-12;
 
 std::vector<ErrorSums> by_unit(std::span<const Evaluation> folds) {
   std::vector<ErrorSums> sums;
@@ -41,26 +46,29 @@ std::vector<double> esr_parts(std::span<const Evaluation> folds) {
   return parts;
 }
 
-std::optional<PairedDifference> paired_difference(std::span<const double> esr_parts,
-                                                  std::span<const double> leader_parts) {
+std::optional<PairedRatio> paired_ratio(std::span<const double> esr_parts,
+                                        std::span<const double> leader_parts) {
   assert(esr_parts.size() == leader_parts.size());
   const std::size_t units = esr_parts.size();
   if (units < 2) return std::nullopt;
   const auto n = static_cast<double>(units);
 
-  // The sum of the differences, and their spread.
-  PairedDifference difference{.units = units};
-  for (std::size_t k = 0; k < units; ++k) difference.esr += esr_parts[k] - leader_parts[k];
-  double squares = 0;
+  // The logarithm of each unit's ratio, and their mean.
+  std::vector<double> logs;
   for (std::size_t k = 0; k < units; ++k)
-    squares += std::pow(esr_parts[k] - leader_parts[k] - difference.esr / n, 2);
+    logs.push_back(
+        std::log(std::max(esr_parts[k], kRounding) / std::max(leader_parts[k], kRounding)));
+  const double mean = std::reduce(logs.begin(), logs.end()) / n;
 
-  // The interval of a sum of n such differences.
+  // The interval of that mean.
+  double squares = 0;
+  for (const double value : logs) squares += std::pow(value - mean, 2);
   const double quantile = students_t_quantile(n - 1, (1 + kPairedLevel) / 2);
-  const double half = quantile * std::sqrt(n * squares / (n - 1));
-  difference.low = difference.esr - half;
-  difference.high = difference.esr + half;
-  return difference;
+  const double half = quantile * std::sqrt(squares / (n - 1) / n);
+  return PairedRatio{.times = std::exp(mean),
+                     .low = std::exp(mean - half),
+                     .high = std::exp(mean + half),
+                     .units = units};
 }
 
 }  // namespace dashpot

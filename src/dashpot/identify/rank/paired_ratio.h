@@ -6,16 +6,15 @@
 #include "dashpot/rank.h"
 
 // Which of two models is better can only be told from left-out parts that have little to do with
-// one another. What every part adds to the error of one model, less what it adds to that of the
-// other, is one number per part, and Student's t interval holds the sum of those to come. Parts
-// differ in how hard they are by much more than models do, hence the pairs.
+// one another. Such a part is harder than another for both models, and an error that is twice as
+// great on an easy one tells as much as on a hard one: so the logarithm of the ratio of both errors
+// is one number per part, and Student's t interval holds its mean.
 //
 // In simulation, over 4, 5, 10 and 20 parts whose difficulty is spread log-normally (0.7) and whose
-// errors are spread once more (0.5), the 90 % interval covers 94 to 91 % where both models are
-// equally good and 90 to 89 % where one is worse by 30 %, and 92 to 91 % of differences with
-// Student's t distribution of 3 degrees of freedom. Where one model is twice as bad it covers 82 to
-// 85 % only: then the interval is somewhat short, but 0 is far from it. A bootstrap over so few
-// parts covers less in all these cases.
+// errors are spread once more (0.5), the 90 % interval covers 89 to 91 % of the true ratios, from 1
+// to 20, and 90 to 93 % where the errors have the tails of Student's t with 3 degrees of freedom.
+// The difference of the pooled errors is no such measure: a part that is hard for both models makes
+// its interval so wide that a model five times as bad on every part is often not told apart.
 //
 // Fits of different folds share records, which the interval does not know. It compares two models
 // that were named beforehand: that the first of many is the best by luck is seen by the many that
@@ -29,7 +28,7 @@ inline constexpr double kPairedLevel = 0.9;  ///< that an interval claims
 std::vector<double> esr_parts(std::span<const Evaluation> folds);
 
 /// From the parts of both models, unit by unit. Nothing with fewer than two units.
-std::optional<PairedDifference> paired_difference(std::span<const double> esr_parts,
-                                                  std::span<const double> leader_parts);
+std::optional<PairedRatio> paired_ratio(std::span<const double> esr_parts,
+                                        std::span<const double> leader_parts);
 
 }  // namespace dashpot
