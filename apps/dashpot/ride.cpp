@@ -66,6 +66,8 @@ int run_ride(const RideSettings& settings, Console& console) {
     return kDone;
   }
 
+  require_effect(settings.vehicle, true, settings.against);
+
   // A folder that cannot be written is found out before the ride, not after it.
   prepare_study(settings.results);
   const RideStudy study = study_ride(options_of(settings, console));

@@ -50,6 +50,7 @@ std::optional<RideRankOptions> stated_ride(const RideRankSettings& settings,
   }
 
   // Everything that can be refused is, before the first fit.
+  require_effect(settings.vehicle, !settings.vehicle.controller.empty(), "");
   RoadChoice road = settings.road;
   if (road.road.empty()) road.road = RideRankOptions{}.road;
   RideRankOptions options{.vehicle = words_of(settings.vehicle),

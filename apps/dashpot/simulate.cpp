@@ -89,6 +89,7 @@ int run_simulate(const SimulateSettings& settings, Console& console) {
   }
 
   const PrintUnits units = page_units(settings.units);
+  require_effect(settings.vehicle, !settings.vehicle.controller.empty(), settings.against);
 
   // A folder that cannot be written is found out before the run, not after it.
   if (!settings.results.folder.empty()) prepare_study(settings.results);

@@ -131,6 +131,24 @@ VehicleWords words_of(const VehicleChoice& choice) {
   return words;
 }
 
+void require_effect(const VehicleChoice& choice, bool is_controlled, const std::string& against) {
+  // Without a controller no force is wanted, and nothing is sensed.
+  if (!is_controlled)
+    for (const auto& [option, is_said] : {std::pair{"--inverse", !choice.inverse.empty()},
+                                          {"--force-loop", !choice.force_loop.empty()},
+                                          {"--in-car", choice.in_car},
+                                          {"--delay", choice.delay > 0}})
+      if (is_said)
+        throw UsageError(option, "serves a controller, and there is none",
+                         "name one with --controller, or leave it out");
+
+  // With one, only another damper that the vehicle is compared with may keep a current.
+  const bool is_kept = !against.empty() && against != "none" && !against.starts_with("current=");
+  if (is_controlled && choice.current > 0 && !is_kept)
+    throw UsageError("--current", "is where there is no controller, which chooses its own",
+                     "leave it out");
+}
+
 GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plant& plant) {
   GroundPointer ground = make_ground(choice.road, seed, "--road");
   if (plant.tyres.empty() && !ground->shakes())

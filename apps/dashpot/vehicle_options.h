@@ -39,6 +39,10 @@ std::vector<Option> road_options(RoadChoice& choice);
 /// The parts between semicolons: "skyhook;mix1,crossover=2Hz".
 std::vector<std::string> words_between(const std::string& text);
 VehicleWords words_of(const VehicleChoice& choice);
+/// Throws UsageError at an option that would have no effect: one that serves a controller where
+/// there is none, or a constant current where nothing keeps it. `against` is what a controlled
+/// vehicle is compared with, as --against has it.
+void require_effect(const VehicleChoice& choice, bool is_controlled, const std::string& against);
 /// Throws Error where it suits no such plant: a road under a building.
 GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plant& plant);
 

@@ -160,6 +160,7 @@ TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit" 
   refused("--plant savaresi", 1, "did you mean 'savaresi_spelta'?");
   refused("--plant savaresi_spelta --controller skyhok", 1, "skyhook");
   refused("--plant savaresi_spelta --road iso8608,class=Z", 1, "class");
+  refused("--plant savaresi_spelta --in-car", 2, "--in-car: serves a controller");
 }
 
 TEST_CASE("rank: its progress as JSON has each model when it ends, and parameters as they move") {

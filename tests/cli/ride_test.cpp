@@ -32,6 +32,7 @@ TEST_CASE("ride: wrong command lines" * doctest::test_suite("long")) {
       {"--frequencies 2,x", "--frequencies", 1},
       {"--frequencies 2,1", "vehicle: its frequencies do not rise from above 0", 1},
       {"--held 1", "--held: 1 is too small; give at least 2", 2},
+      {"--current 0.5", "--current: is where there is no controller, which chooses its own", 2},
       {"--plant dyke_spencer1996 --damper spencer1997", "has no tyres to ride on", 1},
   };
   for (const auto& c : cases) {

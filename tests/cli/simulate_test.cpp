@@ -86,9 +86,15 @@ TEST_CASE("simulate: wrong command lines" * doctest::test_suite("long")) {
       {"--list cars", "unknown list 'cars'", 2},
       {"--plant dyke_spencer1996 --damper spencer1997 --road step",
        "--road: 'step' moves no building; earthquake,file=...", 1},
-      {"--inverse numerik --damper spencer1997",
+      {"--inverse numerik --damper spencer1997 --controller skyhook",
        "unknown inverse 'numerik'; did you mean 'numeric'?", 1},
       {"--tolerance 0", "simulation: a tolerance is not above 0", 1},
+      {"--inverse numeric --damper spencer1997",
+       "--inverse: serves a controller, and there is none; name one with --controller", 2},
+      {"--in-car", "--in-car: serves a controller, and there is none", 2},
+      {"--delay 2", "--delay: serves a controller, and there is none", 2},
+      {"--controller mix1 --current 0.5",
+       "--current: is where there is no controller, which chooses its own; leave it out", 2},
   };
   for (const auto& c : cases) {
     CAPTURE(c.arguments);
