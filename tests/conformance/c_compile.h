@@ -28,10 +28,12 @@ inline std::string chosen_runner() {
 /// printed.
 inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags,
                                      const std::string& runner = chosen_runner()) {
-  folder.write("check", "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " +
-                            flags + " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w " + flags +
-                            " $1_test.c $1.o -lm -o $1 && " + runner + " ./$1 > $1.out 2>&1 || " +
-                            "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
+  folder.write(
+      "check",
+      "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Werror " +
+          flags + " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w " + flags +
+          " $1_test.c $1.o -lm -o $1 && " + runner + " ./$1 > $1.out 2>&1 || " +
+          "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
   return run_program(
       "cd '" + folder.path().string() +
       "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");

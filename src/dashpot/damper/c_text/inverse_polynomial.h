@@ -16,7 +16,8 @@ static inline void polynomial_force(const Observer* m, const PolynomialNumbers* 
   double f[4] = {0, 0, 0, 0};
   int k;
   for (k = 0; k <= p->degree; ++k) {
-    f[k] = observer_force(m, p->least + ((p->most - p->least) * k / p->degree), input, state);
+    f[k] = observer_force(m, p->least + ((p->most - p->least) * (double)k / (double)p->degree),
+                          input, state);
   }
   polynomial_through(f, p->degree, c);
 }

@@ -46,7 +46,7 @@ static inline double search_wanted(const Observer* m, const SearchNumbers* p,
     double places[SEARCH_CELLS + 1];
     FirstRoot found;
     for (k = 0; k <= SEARCH_CELLS; ++k) {
-      places[k] = (k < SEARCH_CELLS) ? (p->least + (range * k / SEARCH_CELLS)) : p->most;
+      places[k] = (k < SEARCH_CELLS) ? (p->least + (range * (double)k / SEARCH_CELLS)) : p->most;
     }
     found = first_root(&error, places, SEARCH_CELLS + 1, SEARCH_TOLERANCE);
     own[1] = 0;

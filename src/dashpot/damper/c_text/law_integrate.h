@@ -7,10 +7,10 @@
 
 /* The law's own step, `count` times; 0 where the law has none for these parameters. */
 static inline int law_own_steps(const LawModel* m, const LawPath* path, int count, double* z) {
-  const double h = path->dt / count;
+  const double h = path->dt / (double)count;
   int done = law_has_own_step(m), k;
   for (k = 0; (k < count) && (done != 0); ++k) {
-    const double t = k * h;
+    const double t = (double)k * h;
     double x[2], v[2];
     LawParameters middle;
 
@@ -29,7 +29,7 @@ static inline int law_own_steps(const LawModel* m, const LawPath* path, int coun
 /* Classical Runge-Kutta, `count` times; `start`: the parameters at the path's start. */
 static inline void law_explicit_steps(const LawModel* m, const LawPath* path,
                                       const LawParameters* start, int count, double* z) {
-  const double h = path->dt / count;
+  const double h = path->dt / (double)count;
   LawParameters middle, ends[2];
   const LawParameters* stages[3];
   int k;
@@ -37,7 +37,7 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path,
   stages[1] = start;
   stages[2] = start;
   for (k = 0; k < count; ++k) {
-    const double t = k * h;
+    const double t = (double)k * h;
     double x[3], v[3];
 
     /* Motion at the step's start, middle and end. */
@@ -51,8 +51,8 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path,
     /* Parameters there. The end's serve the next step as its start, so two sets take turns. */
     if (path->varies != 0) {
       LawParameters* end = &ends[k % 2];
-      law_parameters(m, law_path_current(path, (k + 0.5) * h), &middle);
-      law_parameters(m, law_path_current(path, (k + 1) * h), end);
+      law_parameters(m, law_path_current(path, ((double)k + 0.5) * h), &middle);
+      law_parameters(m, law_path_current(path, ((double)k + 1) * h), end);
       stages[1] = &middle;
       stages[2] = end;
     }

@@ -189,7 +189,8 @@ static inline void passive_advance(const PassiveCell* c, const DamperInput* from
 
   /* Equal steps, each at the motion and the drive of its middle. */
   for (s = 0; s < count; ++s) {
-    const double begin = s / steps, end = (s + 1) / steps, middle = (s + 0.5) / steps;
+    const double begin = (double)s / steps, end = ((double)s + 1) / steps;
+    const double middle = ((double)s + 0.5) / steps;
     double drive = i0 + ((i1 - i0) * middle);
     if (c->lags != 0) {
       drive = 0.5 * state[0];

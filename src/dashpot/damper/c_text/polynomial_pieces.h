@@ -8,7 +8,7 @@ static inline double polynomial_at(const double* c, double s) {
 
 /* Through f[0] ... f[degree] on equal steps: Newton's form, multiplied out. */
 static inline void polynomial_through(const double* f, int degree, double* c) {
-  const double n = degree, d1 = f[1] - f[0];
+  const double n = (double)degree, d1 = f[1] - f[0];
   c[0] = f[0];
   c[1] = d1;
   c[2] = 0;

@@ -45,7 +45,7 @@ static inline double normalised_bouc_wen_travel_by_tangents(double sigma, double
   const double fastest = n * (w > 0 ? 1 : fmax(1, fabs(2 * sigma - 1)));
   const int count = 1 + (int)fmin(4 * s * fastest, 31);
   int k;
-  s /= count;
+  s /= (double)count;
   for (k = 0; k < count && 1 - w > 1e-12; ++k) {
     const double power = pow(fabs(w), n - 1), share = w > 0 ? -1 : 1 - 2 * sigma;
     const double slope = 1 + (w > 0 ? -w : (1 - 2 * sigma) * w) * power, bend = n * share * power;

@@ -183,5 +183,5 @@ static inline double narx_force(const Narx* n, const DamperInput* input, const d
       sum += narx_held(n, k, narx_evaluate(n, k, input, state[0] / n->sample_time, state), last);
     }
   }
-  return (sum / n->member_count) + n->offset;
+  return (sum / (double)n->member_count) + n->offset;
 }

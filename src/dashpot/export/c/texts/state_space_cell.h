@@ -115,9 +115,9 @@ static inline void cell_advance(const StateSpaceCell* c, const DamperInput* from
 
   /* Equal steps; in each the motions see the mean of the lagged currents before and after it. */
   for (s = 0; s < count; ++s) {
-    const double begin = s / steps, end = (s + 1) / steps;
+    const double begin = (double)s / steps, end = ((double)s + 1) / steps;
     const double velocity =
-        from->velocity + ((to->velocity - from->velocity) * ((s + 0.5) / steps));
+        from->velocity + ((to->velocity - from->velocity) * (((double)s + 0.5) / steps));
     for (m = 0; m < c->currents; ++m) {
       double* lagged = &state[motions + m];
       middle[m] = 0.5 * *lagged;
