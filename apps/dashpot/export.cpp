@@ -225,6 +225,12 @@ std::vector<double> grid_of(const std::string& text, const std::string& option, 
     const double low = grid[0], step = grid[1], steps = std::floor((grid[2] - low) / step + 1e-9);
     if (!(steps < kMost)) throw wrong("has more than " + std::to_string(kMost) + " steps");
     if (steps < 1) throw wrong("'" + text + "' is a single number: its step is beyond its end");
+
+    // A range that misses its end was most likely meant as low:high:step.
+    const double last = low + steps * step;
+    if (grid[2] - last > 1e-6 * step)
+      throw wrong("'" + text + "' ends at " + format_number(last) + ", not at " +
+                  format_number(grid[2]) + ": its step is " + format_number(step));
     grid.clear();
     for (double k = 0; k <= steps; ++k) grid.push_back(low + k * step);
   }

@@ -131,6 +131,8 @@ TEST_CASE("export --velocities: a grid in mm/s, a warning beyond the data, and w
        {std::pair{" --to tables --velocities 100,x", "'x' is not a number"},
         std::pair{" --to tables --velocities 0:0:100", "low:step:high"},
         std::pair{" --to tables --velocities=-500:600:50", "is a single number"},
+        std::pair{" --to tables --velocities=-500:500:50", "ends at 0, not at 50: its step is 500"},
+        std::pair{" --to tables --currents=0:0.3:1", "ends at 0.9, not at 1"},
         std::pair{" --to tables --currents 1,1", "holds a number twice"},
         std::pair{" --to c --velocities 100", "is the grid of tables"}}) {
     const ProgramResult wrong = run_dashpot(asked + options);
