@@ -1,5 +1,7 @@
 #include "dashpot/report/sweep_report.h"
 
+#include <algorithm>
+
 #include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"
 
@@ -71,6 +73,22 @@ TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what
   CHECK(correlation.rows[0][0] == "sprung_mass");
   CHECK(correlation.rows[0][1] == "-1.00");
   CHECK(!html_document(document).empty());
+}
+
+TEST_CASE("a sweep's drive is a current, a voltage or a place from 0 to 1, and its heads say so") {
+  Sweep sweep = example_sweep();
+  sweep.rides[1][0].current = 0.5;
+  for (const auto& [drive, title, column] :
+       {std::tuple{std::optional(DriveUnit::None), "Drive, 0 ... 1", "current,"},
+        {std::optional(DriveUnit::Ampere), "Current (A)", "current[A],"},
+        {std::optional(DriveUnit::Volt), "Voltage (V)", "current[V],"},
+        {std::optional<DriveUnit>(), "Drive (A|V|1)", "current[A|V|1],"}}) {
+    CAPTURE(title);
+    sweep.drive = drive;
+    const DocumentTable quantiles = table_of(sweep_document(sweep), "quantiles");
+    CHECK(std::ranges::count_if(quantiles.rows, [&](const auto& r) { return r[0] == title; }) == 2);
+    CHECK(csv_table(sweep_tables(sweep)[0]).find(column) != std::string::npos);
+  }
 }
 
 TEST_CASE("a sweep's tables: a row per ride, inputs and measures with units") {

@@ -97,7 +97,8 @@ std::string ShownMeasure::text(double value) const { return number_text(factor *
 
 std::vector<ShownMeasure> shown_measures(const Sweep& sweep) {
   std::vector<ShownMeasure> shown;
-  for (const SweepMeasure& m : judged_measures()) {
+  for (const SweepMeasure& measure : judged_measures()) {
+    const SweepMeasure& m = as_driven(measure, sweep.drive);
     const bool is_there =
         std::ranges::any_of(sweep.rides, [&](const std::vector<RideMeasures>& rides) {
           return std::ranges::any_of(rides, [&](const RideMeasures& ride) {

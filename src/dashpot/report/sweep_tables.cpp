@@ -49,9 +49,11 @@ ColumnTable ride_table(const Sweep& sweep) {
   rows.column("road_seed", "1", "of the road's random numbers");
   for (const std::size_t k : numbers)
     rows.column(request.inputs[k].name, request.inputs[k].unit, request.inputs[k].meaning);
-  for (const SweepMeasure& m : sweep_measures())
+  for (const SweepMeasure& measure : sweep_measures()) {
+    const SweepMeasure& m = as_driven(measure, sweep.drive);
     rows.column(std::string(m.name), std::string(m.unit),
                 std::string(m.title) + ": " + std::string(m.meaning));
+  }
 
   // A row per vehicle and controller.
   for (std::size_t v = 0; v < sweep.vehicles.size(); ++v)
@@ -97,7 +99,8 @@ ColumnTable quantile_table(const Sweep& sweep) {
   for (std::size_t c = 0; c < sweep.rides.size(); ++c)
     for (const SweepMeasure& m : judged_measures())
       if (const auto spread = spread_of(measure_values(sweep, c, m)))
-        rows.row({sweep.request.controllers[c].name, std::string(m.name), std::string(m.unit)},
+        rows.row({sweep.request.controllers[c].name, std::string(m.name),
+                  std::string(as_driven(m, sweep.drive).unit)},
                  figures_of(*spread));
   return rows.take();
 }

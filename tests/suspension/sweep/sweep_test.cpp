@@ -50,6 +50,24 @@ bool same_bits(const Sweep& a, const Sweep& b) {
 
 }  // namespace
 
+TEST_CASE("a sweep tells what drives its dampers, where that is one thing") {
+  const auto drive = [](const std::string& dampers, const std::string& other) {
+    const TemporaryFolder folder;
+    return run(parse_sweep("plant: savaresi_spelta\nroad: iso8608_fft\nduration: 1 s\n"
+                           "discard: 0.2 s\nsamples: 1\ncontrollers:\n"
+                           "  passive: {dampers: viscous}\n  one: {controller: skyhook, dampers: " +
+                               dampers + "}\n  other: {controller: skyhook, dampers: " + other +
+                               "}\n",
+                           "test.yaml"),
+               folder.path() / "sweep.sqlite")
+        .drive;
+  };
+  CHECK(drive("ideal", "ideal") == DriveUnit::None);
+  CHECK(drive("spencer1997", "spencer1997") == DriveUnit::Volt);
+  CHECK(drive("ideal", "spencer1997") == std::nullopt);
+  CHECK(drive("mr1", "mr1") == DriveUnit::Ampere);
+}
+
 TEST_CASE("a sweep's measures are those of simulate() and of the ride's own functions") {
   const TemporaryFolder folder;
   const SweepRequest request = example(3);

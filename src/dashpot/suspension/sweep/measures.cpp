@@ -40,6 +40,16 @@ constexpr std::array kMeasures{
     SweepMeasure{"diverged_at", "s", "Diverged at", "from when on nothing is finite; empty: never",
                  &M::diverged_at}};
 
+// The measure of the drive where it is known what drives: by DriveUnit, then for unlike ones.
+constexpr std::array kDrives{
+    SweepMeasure{"current", "1", "Drive, 0 ... 1",
+                 "mean over time and dampers, of their places from 0 to 1", &M::current},
+    SweepMeasure{"current", "A", "Current", "mean over time and dampers", &M::current},
+    SweepMeasure{"current", "V", "Voltage", "mean over time and dampers", &M::current},
+    SweepMeasure{"current", "A|V|1", "Drive",
+                 "mean over time and dampers, in what drives those of the controller",
+                 &M::current}};
+
 /// A channel from the first sample that counts.
 std::span<const double> kept(const Trace& trace, const std::string& channel, std::size_t first) {
   return std::span(trace.record.channel(channel).samples).subspan(first);
@@ -105,6 +115,11 @@ RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, dou
   for (const DomainUse& use : domain_use(vehicle, trace))
     measures.outside_data = std::max(measures.outside_data, use.any());
   return measures;
+}
+
+const SweepMeasure& as_driven(const SweepMeasure& measure, const std::optional<DriveUnit>& drive) {
+  if (measure.field != &RideMeasures::current) return measure;
+  return drive ? kDrives[static_cast<std::size_t>(*drive)] : kDrives.back();
 }
 
 std::span<const SweepMeasure> sweep_measures() { return kMeasures; }

@@ -1,9 +1,11 @@
 #pragma once
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include "dashpot/drive.h"
 #include "dashpot/suspension/lanes/batch.h"
 #include "dashpot/vehicle.h"
 
@@ -29,6 +31,10 @@ struct SweepMeasure {
 std::span<const SweepMeasure> sweep_measures();
 /// The measures that a ride is judged by: all but the last.
 std::span<const SweepMeasure> judged_measures();
+
+/// The measure as a sweep has it whose dampers are all driven by that unit: the one of the drive is
+/// a current, a voltage or a place from 0 to 1; without a unit, any of these.
+const SweepMeasure& as_driven(const SweepMeasure& measure, const std::optional<DriveUnit>& drive);
 
 /// Whether the vehicle's measures need more than simulate_batch() sums up: it has stops, limits of
 /// data or several tyres.

@@ -40,6 +40,16 @@ SweepRider::SweepRider(const SweepRequest& request) : request_(request) {
   require_ground(*make_road(request, first), examples_.front().set.plant, request);
 }
 
+std::optional<DriveUnit> SweepRider::drive() const {
+  std::optional<DriveUnit> drive;
+  for (const Vehicle& vehicle : examples_) {
+    if (!(vehicle.limits.current_min < vehicle.limits.current_max)) continue;  // passive
+    if (drive && *drive != vehicle.drive_unit) return std::nullopt;
+    drive = vehicle.drive_unit;
+  }
+  return drive.value_or(DriveUnit::Ampere);
+}
+
 /// Dampers that all vehicles have in common are shared: their models are large, and finding their
 /// limits takes time.
 Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ class SweepRider {
   std::vector<SweepStore::Ride> ride(const std::vector<Task>& tasks, const Monitor& monitor) const;
 
   const std::vector<std::string>& notes() const { return notes_; }
+  /// What drives the dampers; none: the controllers' differ. A where nothing does.
+  std::optional<DriveUnit> drive() const;
 
  private:
   Vehicle make(const Task& task, const SweepDraw& draw) const;

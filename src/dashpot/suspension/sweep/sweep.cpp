@@ -81,6 +81,7 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
   // Whatever does not fit together is reported before anything rides.
   const SweepRider rider(request);
   result.notes = rider.notes();
+  result.drive = rider.drive();
 
   // Take over the rides that are kept.
   result.rides.assign(controllers, std::vector<RideMeasures>(vehicles));

@@ -1,9 +1,11 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dashpot/base/part.h"
+#include "dashpot/drive.h"
 #include "dashpot/monitor.h"
 #include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/store.h"
@@ -20,8 +22,10 @@ struct Sweep {
   SweepRequest request;
   std::vector<SweepDraw> vehicles;
   std::vector<std::vector<RideMeasures>> rides;  ///< by controller, then by vehicle
-  std::vector<std::string> notes;                ///< "the numbers of ... are an example: ..."
-  std::size_t kept = 0;                          ///< rides that were in the store before
+  /// What `current` is of: what drives the dampers; none: the controllers' differ.
+  std::optional<DriveUnit> drive = DriveUnit::Ampere;
+  std::vector<std::string> notes;  ///< "the numbers of ... are an example: ..."
+  std::size_t kept = 0;            ///< rides that were in the store before
   double wall_seconds = 0;
 
   std::size_t ride_count() const { return vehicles.size() * rides.size(); }
