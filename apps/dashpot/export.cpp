@@ -87,7 +87,9 @@ std::string formats_text() {
 
 bool is_inverse(const std::string& path) {
   if (path.empty()) return false;
-  const Value document = parse_json(read_file(path), path);
+  const std::string text = read_file(path);
+  if (!trim(text).starts_with('{')) return false;
+  const Value document = parse_json(text, path);
   const Value* format = document.kind() == Value::Kind::Object ? document.find("format") : nullptr;
   return format && format->kind() == Value::Kind::String &&
          format->as_string() == "dashpot-inverse";

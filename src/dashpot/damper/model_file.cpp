@@ -1,6 +1,7 @@
 #include "dashpot/model_file.h"
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/force_band.h"
@@ -45,7 +46,7 @@ std::string format_model(const ModelFile& file) {
 }
 
 ModelFile parse_model(std::string_view text, const std::string& source) {
-  const Value document = parse_json(text, source);
+  const Value document = parse_json_of(text, source, "a model file");
   ObjectReader reader(document, "a model file");
   require_format(reader, kFormat);
 

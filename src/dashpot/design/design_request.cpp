@@ -5,6 +5,7 @@
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -268,6 +269,7 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
                             const std::filesystem::path& folder, Goals goals,
                             RideReader read_ride) {
   const Value document = parse_yaml(text, source);
+  refuse_other_kind(document, "a design request");
   ObjectReader reader(document, "a design request");
 
   // Name, note and the damper that the request starts from.

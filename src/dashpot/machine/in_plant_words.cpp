@@ -4,6 +4,7 @@
 #include <array>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
@@ -374,6 +375,7 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
 
 InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& source) {
   const Value value = parse_yaml(text, source);
+  refuse_other_kind(value, "a plant with its sensors");
   ObjectReader reader(value, "a plant with its sensors");
   InPlantSetup setup;
   read_plant(setup, reader, source);

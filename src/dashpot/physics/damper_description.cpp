@@ -6,6 +6,7 @@
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -193,6 +194,7 @@ void require_field(const DamperDescription& d, const std::string& where) {
 
 DamperDescription parse_description(std::string_view text, const std::string& source) {
   const Value document = parse_yaml(text, source);
+  refuse_other_kind(document, "a damper description");
   ObjectReader reader(document, "a damper description");
   DamperDescription description;
   description.name = reader.string("name", "");

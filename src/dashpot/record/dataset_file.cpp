@@ -5,6 +5,7 @@
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
@@ -263,6 +264,7 @@ void read_recognise(const Value& value, DatasetFile& out) {
 
 DatasetFile load_dataset_file(const fs::path& path) {
   const Value value = parse_yaml(read_file(path), path.string());
+  refuse_other_kind(value, "a dataset file");
   ObjectReader reader(value, "a dataset file");
   DatasetFile out;
 

@@ -60,7 +60,9 @@ TEST_CASE("inverse file: what is wrong is named with its key") {
     const char *from, *to, *message;
   } cases[] = {
       {"dashpot-inverse", "dashpot-model",
-       "is 'dashpot-model', not a file of an inverse; write dashpot-inverse"},
+       "is a model file, not a file of an inverse; one that 'dashpot invert' wrote"},
+      {"dashpot-inverse", "dashpot-invers",
+       "is 'dashpot-invers', not a file of an inverse; write dashpot-inverse"},
       {"\"version\": 1", "\"version\": 2", "version 2 is not known here"},
       {"\"sample_time\": 0.005", "\"sample_time\": -1", "its step is not between"},
       {"\"signal\": \"force\"", "\"signal\": \"forse\"",

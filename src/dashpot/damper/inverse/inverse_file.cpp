@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/nets/mlp_json.h"
 #include "dashpot/error.h"
@@ -67,7 +68,7 @@ std::string format_inverse(const InverseFile& file) {
 }
 
 InverseFile parse_inverse(std::string_view text, const std::string& source) {
-  const Value document = parse_json(text, source);
+  const Value document = parse_json_of(text, source, "a file of an inverse");
   ObjectReader reader(document, "a file of an inverse");
   require_format(reader, kFormat);
   InverseFile file;

@@ -1,6 +1,7 @@
 #include "dashpot/record/readers/reader.h"
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/csv.h"
@@ -39,6 +40,19 @@ const Reader* reader_of(const fs::path& path, std::string_view head) {
   return nullptr;
 }
 
+/// "is a model file, no recording", or that it cannot be read.
+std::string no_recording(const fs::path& path) {
+  try {
+    const std::string text = read_file(path);
+    const std::string kind =
+        file_kind(trim(text).starts_with('{') ? parse_json(text, path.string())
+                                              : parse_yaml(text, path.string()));
+    if (!kind.empty()) return "is " + kind + ", no recording";
+  } catch (const Error&) {  // whatever else it is
+  }
+  return "is not a recording that Dashpot can read";
+}
+
 }  // namespace
 
 std::span<const Reader> readers() { return kReaders; }
@@ -54,9 +68,7 @@ std::vector<RawTable> read_tables(const fs::path& path) {
   if (head.empty())
     throw Error(path.string(), "is empty (0 bytes)", "copy it again from its source");
   const Reader* reader = reader_of(path, head);
-  if (!reader)
-    throw Error(path.string(), "is not a recording that Dashpot can read",
-                "it reads " + known_formats());
+  if (!reader) throw Error(path.string(), no_recording(path), "it reads " + known_formats());
   return reader->read(path);
 }
 

@@ -2,6 +2,7 @@
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/require_keys.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -108,7 +109,7 @@ std::vector<std::string> plant_set_names() { return data_names("plants", ".json"
 
 PlantSet parse_plant_set(std::string_view text, const std::string& source, const std::string& name,
                          const NamedValues& values) {
-  const Value document = parse_json(text, source);
+  const Value document = parse_json_of(text, source, "a plant");
   ObjectReader reader(document, "a plant");
   if (document.find("matrices"))
     require_keys(document, "a plant", {"source", "verified", "reason", "title"});

@@ -4,6 +4,7 @@
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -177,6 +178,7 @@ void require_consistent(const SweepRequest& request, const std::string& source) 
 
 SweepRequest parse_sweep(std::string_view text, const std::string& source, const fs::path& folder) {
   const Value document = parse_yaml(text, source);
+  refuse_other_kind(document, "a sweep");
   ObjectReader reader(document, "a sweep");
   SweepRequest request{.source = source};
   request.name = reader.string("name", fs::path(source).stem().string());

@@ -7,6 +7,7 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/law_side.h"
@@ -747,8 +748,10 @@ std::shared_ptr<const LawText> load_law_text(const std::filesystem::path& path) 
 }
 
 std::shared_ptr<const LawText> parse_law_text(std::string_view text, const std::string& source) {
-  return LawText::make(trim(text).starts_with('{') ? parse_json(text, source)
-                                                   : parse_yaml(text, source));
+  const Value definition =
+      trim(text).starts_with('{') ? parse_json(text, source) : parse_yaml(text, source);
+  refuse_other_kind(definition, "the file of a law");
+  return LawText::make(definition);
 }
 
 }  // namespace dashpot
