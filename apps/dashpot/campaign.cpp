@@ -1,6 +1,7 @@
 #include "campaign.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -120,8 +121,13 @@ SineMotion parse_motion(const std::string& text) {
 }
 
 double parse_level(const std::string& text) {
-  if (const auto level = parse_number(text)) return *level;
-  throw UsageError("--levels", "'" + text + "' is not a number", "write them as 0,0.5,1");
+  const auto level = parse_number(text);
+  if (!level || !std::isfinite(*level))
+    throw UsageError("--levels", "'" + text + "' is not a number", "write them as 0,0.5,1");
+  if (*level < 0)
+    throw UsageError("--levels", text + " is below 0, and dampers are driven from 0 up",
+                     "write them as 0,0.5,1");
+  return *level;
 }
 
 std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchOptions options) {

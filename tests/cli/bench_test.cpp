@@ -39,6 +39,14 @@ TEST_CASE("bench: the same seed gives the same bytes, another seed others") {
   CHECK(first.starts_with("t_s,x_mm,F_N,voltage_V\n"));
 }
 
+TEST_CASE("bench: a level below 0 or none is refused") {
+  const ProgramResult below = run_dashpot("bench --motions 5x2 --levels=1,-1 --output /tmp/never");
+  CHECK(below.exit_code == 2);
+  CHECK(contains(below.output, "--levels: -1 is below 0, and dampers are driven from 0 up"));
+  CHECK(contains(run_dashpot("bench --levels 0,inf --output /tmp/never").output,
+                 "--levels: 'inf' is not a number; write them as 0,0.5,1"));
+}
+
 TEST_CASE("bench: a motion too fast to be sampled is refused with the limit") {
   const ProgramResult result = run_dashpot("bench --motions 5x90 --levels 1 --output /tmp/never");
   CHECK(result.exit_code == 1);
