@@ -575,6 +575,38 @@ TEST_CASE("levels of a recorded current go with the largest of all records") {
   CHECK(std::ranges::count_if(varied.records, [](const Record& r) { return !r.drive_level; }) == 1);
 }
 
+TEST_CASE("levels of a drive of 20 mA: constant ones, ones that vary, and the noise of a zero") {
+  using Drive = double (*)(int);
+  const auto levels_of = [](const std::vector<Drive>& drives) {
+    const TemporaryFolder folder;
+    for (std::size_t run = 0; run < drives.size(); ++run) {
+      std::string text = "t_s,x_mm,F_N,I_mA\n";
+      for (int k = 0; k < 200; ++k)
+        text += format_number(0.01 * k, 6) + "," + format_number(10 * std::sin(0.0628 * k), 6) +
+                "," + format_number(500 * std::cos(0.0628 * k), 6) + "," +
+                format_number(drives[run](k), 6) + "\n";
+      folder.write("run" + std::to_string(run) + ".csv", text);
+    }
+    std::vector<std::optional<double>> levels;
+    for (const Record& record : load(folder.path()).records) levels.push_back(record.drive_level);
+    return levels;
+  };
+  using Levels = std::vector<std::optional<double>>;
+
+  // Constant, with a noise of 0.1 mA.
+  CHECK(levels_of({[](int k) { return 0.1 * (k % 2); }, [](int k) { return 10 + 0.1 * (k % 2); },
+                   [](int k) { return 20 + 0.1 * (k % 2); }}) == Levels{0, 0.01, 0.02});
+
+  // Switched between 0 and 20 mA, and a slow swing, both of which no record at rest goes beside.
+  CHECK(levels_of({[](int k) { return k / 25 % 2 ? 20. : 0.; },
+                   [](int k) { return 10 + 8 * std::sin(0.05 * k); }}) ==
+        Levels{std::nullopt, std::nullopt});
+
+  // A zero that hums or flickers by as much.
+  CHECK(levels_of({[](int k) { return 10 * std::sin(0.3 * k); }}) == Levels{0});
+  CHECK(levels_of({[](int k) { return 5. + 5 * (k * 7 % 5 - 2); }}) == Levels{0.01});
+}
+
 TEST_CASE("two columns that could be time: what the message proposes works") {
   const TemporaryFolder folder;
   std::string text = "time [s],t_ms,x_mm,F_N\n";

@@ -27,6 +27,22 @@ double round_step(double most) {
   return power;
 }
 
+/// Whether a drive that moves is that of a source, and not the noise of a zero: it stays on one
+/// side of zero, and its samples follow each other.
+bool is_driven(const std::vector<double>& samples, double largest) {
+  constexpr double kOneSide = 0.1, kFollows = 0.2;  // noise of a zero: 1; 2 where it is white
+  const auto [low, high] = std::ranges::minmax(samples);
+  if (std::min(-low, high) > kOneSide * largest) return false;
+  const double mean =
+      std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
+  double steps = 0, deviations = 0;
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    steps += (samples[k] - samples[k - 1]) * (samples[k] - samples[k - 1]);
+    deviations += (samples[k] - mean) * (samples[k] - mean);
+  }
+  return steps < kFollows * deviations;
+}
+
 /// From the largest drive of all records and the quietest of them.
 Resolution resolution_of(std::span<const Record> records) {
   constexpr double kLeast = 0.005, kUsual = 0.5, kAboveNoise = 4;
@@ -38,7 +54,16 @@ Resolution resolution_of(std::span<const Record> records) {
       largest = std::max({largest, std::abs(low), std::abs(high)});
       quietest = std::min(quietest, high - low);
     }
-  if (largest < kLeast || largest >= kUsual || largest < kAboveNoise * quietest) return {};
+  if (largest < kLeast || largest >= kUsual) return {};
+
+  // Where every record moves, it may be by noise alone.
+  if (largest < kAboveNoise * quietest && !std::ranges::all_of(
+                                              records,
+                                              [&](const Record& record) {
+                                                const Channel* drive = recorded_drive(record);
+                                                return !drive || is_driven(drive->samples, largest);
+                                              }))
+    return {};
   return {largest / kNoise, round_step(largest / kSteps)};
 }
 
