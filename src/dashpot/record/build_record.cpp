@@ -35,8 +35,11 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
   const bool force = find_use(uses, "force");
   if (motion && force) return {};
 
-  // A current that was logged by itself.
-  if (!motion && !force)
+  // A current that was logged by itself, and not beside columns whose unit was refused.
+  const bool alone = std::ranges::none_of(uses.unused, [](const auto& unused) {
+    return unused.second.find("unit") != std::string::npos;
+  });
+  if (!motion && !force && alone)
     for (const char* drive : {"current", "voltage"})
       if (const ColumnUse* use = find_use(uses, drive))
         return "it holds a " + use->channel + " ('" +

@@ -226,6 +226,18 @@ TEST_CASE("recorded ground is read in the unit that its column names") {
   }
   write_file(folder.path() / "road.csv", "s,z\n0,0\n1,0.02\n2,0\n");
   CHECK(load_road(folder.path() / "road.csv").description.find("taken as m)") != std::string::npos);
+
+  // Tracks have labels; what may have been meant as a unit is refused with its column.
+  write_file(folder.path() / "road.csv",
+             "s_A,height_A,s_B,height_B\n0,0,0,0\n1,0.02,1,0.01\n2,0,2,0\n");
+  const RoadProfile tracks = load_road(folder.path() / "road.csv");
+  CHECK(tracks.tracks[1][1] == 0.01);
+  CHECK(tracks.description.find("its column 'height_A' names no unit: taken as m)") !=
+        std::string::npos);
+  write_file(folder.path() / "road.csv", "s_m,height_kg\n0,0\n1,0.02\n2,0\n");
+  CHECK(message_of([&] { load_road(folder.path() / "road.csv"); })
+            .find("'height_kg' is counted in 'kg'; a length: m, mm, ft or in, there or as "
+                  "height_unit=mm") != std::string::npos);
 }
 
 TEST_CASE("ground that cannot be made is refused, with what would be right") {

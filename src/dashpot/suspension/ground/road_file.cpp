@@ -13,9 +13,14 @@
 namespace dashpot {
 namespace {
 
+constexpr Dimension kOfLength{0, 1, 0, 0, 0}, kOfTime{0, 0, 1, 0, 0},
+    kOfAcceleration{0, 1, -2, 0, 0};
+
 /// The unit that a column states: below its name, in brackets behind it ("height [mm]"), or behind
-/// its last underscore ("z_mm"); "" where it states none. "(2)" counts columns and is none.
-std::string unit_of(const RawColumn& column) {
+/// its last underscore ("z_mm"); "" where it states none. "(2)" counts columns and is none, and so
+/// is a capital behind the underscore that is no unit of what is `wanted`: "height_A" is of track
+/// A.
+std::string unit_of(const RawColumn& column, const Dimension& wanted) {
   if (!column.unit.empty()) return column.unit;
   const std::string_view name = trim(column.name);
   const std::size_t open = name.find_first_of("[("), close = name.find_last_of("])");
@@ -26,15 +31,18 @@ std::string unit_of(const RawColumn& column) {
   const std::size_t mark = name.rfind('_');
   if (mark == std::string_view::npos || mark == 0) return {};
   const std::string_view ending = name.substr(mark + 1);
-  return parse_unit(ending) && !parse_number(ending) ? std::string(ending) : std::string();
+  const std::optional<Unit> unit = parse_unit(ending);
+  const bool is_label = ending.size() == 1 && ending[0] >= 'A' && ending[0] <= 'Z';
+  if (!unit || parse_number(ending) || (is_label && unit->dimension != wanted)) return {};
+  return std::string(ending);
 }
 
 /// What is stated, else what the column states, else `si`; of the dimension of `si`.
 Unit unit_for(const RawColumn& column, std::string_view stated, std::string_view si,
               const std::string& file, const std::string& right) {
-  std::string text(stated.empty() ? unit_of(column) : stated);
-  if (text.empty()) text = si;
   const Dimension wanted = require_unit(si, file).dimension;
+  std::string text(stated.empty() ? unit_of(column, wanted) : stated);
+  if (text.empty()) text = si;
   const std::optional<Unit> unit = parse_sensor_unit(text);
   if (!unit || unit->dimension != wanted)
     throw Error(file, "'" + column.name + "' is counted in '" + text + "'", right);
@@ -80,7 +88,7 @@ std::vector<double> in_seconds(const RawColumn& column, const std::string& file)
   for (const double value : numbers_of(column, file)) values.push_back(factor * value);
   require_rising(values, file, "the time");
   const double step = (values.back() - values.front()) / static_cast<double>(values.size() - 1);
-  if (unit_of(column).empty() && step >= kLongest)
+  if (unit_of(column, kOfTime).empty() && step >= kLongest)
     throw Error(file,
                 "its time has no unit and steps of " + format_number(step) +
                     ", which are no seconds of an earthquake",
@@ -134,8 +142,8 @@ RoadProfile load_road(const std::filesystem::path& path, std::string_view distan
     highest = std::max(highest, high);
   }
   road.description += ", heights over " + format_number(1e3 * (highest - lowest), 3) + " mm";
-  if (height_unit.empty() && unit_of(table.columns[1]).empty())
-    road.description += " (the file names no unit: taken as m)";
+  if (height_unit.empty() && unit_of(table.columns[1], kOfLength).empty())
+    road.description += " (its column '" + table.columns[1].name + "' names no unit: taken as m)";
   return road;
 }
 
@@ -168,12 +176,13 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
                   "one step all along");
 
   // Whoever reads the result sees whether the unit was the right one.
-  const bool silent = unit_stated.empty() && unit_of(shaking).empty();
-  return shaking_ground(path.filename().string() + ", greatest acceleration " +
-                            format_number(greatest, 3) + " m/s^2" +
-                            (silent ? " (the file names no unit: taken as m/s^2)" : "") +
-                            ", time scale " + format_number(time_scale),
-                        step * time_scale, std::move(acceleration));
+  const bool silent = unit_stated.empty() && unit_of(shaking, kOfAcceleration).empty();
+  return shaking_ground(
+      path.filename().string() + ", greatest acceleration " + format_number(greatest, 3) +
+          " m/s^2" +
+          (silent ? " (its column '" + shaking.name + "' names no unit: taken as m/s^2)" : "") +
+          ", time scale " + format_number(time_scale),
+      step * time_scale, std::move(acceleration));
 }
 
 }  // namespace dashpot
