@@ -1,6 +1,7 @@
 #include "dashpot/machine/watch.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -130,6 +131,40 @@ std::vector<NewDay> new_days(const WatchSettings& settings, const DayState& stat
   return days;
 }
 
+/// A name with each number as '#': what the names of one series share. Empty where a year ends it,
+/// as in 31.12.2026, so that its numbers are no order.
+std::string series_of(const std::string& name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string series, number;
+  for (const char c : fs::path(name).stem().string()) {
+    if (!is_digit(c)) number.clear();
+    if (!is_digit(c) || number.empty()) series += is_digit(c) ? '#' : c;
+    if (is_digit(c)) number += c;
+  }
+  const bool ends_in_year = std::ranges::count(series, '#') > 2 && number.size() == 4 &&
+                            (number.starts_with("19") || number.starts_with("20"));
+  return ends_in_year ? "" : series;
+}
+
+/// Days are taken as they come: warns where the numbers in their names tell another order, as a
+/// shell lists day_10 before day_2.
+void tell_disorder(const std::vector<WatchedDay>& kept, const std::vector<NewDay>& todo,
+                   Console& console) {
+  std::string before = kept.empty() ? "" : kept.back().estimate.name;
+  for (const NewDay& day : todo) {
+    const std::string name = fs::path(day.path).filename().string(), series = series_of(name);
+    if (!series.empty() && series == series_of(before) &&
+        strverscmp(before.c_str(), name.c_str()) > 0) {
+      console.warn(name + " comes behind " + before +
+                   ", and its name says before: days are taken in the order in which they are "
+                   "given; give them in their own, or their folder, which is read by the numbers "
+                   "in the names");
+      return;
+    }
+    before = name;
+  }
+}
+
 PlantRecording read_day(const NewDay& day, const InPlantSetup& setup, const WatchOptions& options) {
   std::vector<std::string> channels = setup.channels();
   channels.insert(channels.end(), options.known.begin(), options.known.end());
@@ -203,6 +238,7 @@ int run_watch(const WatchSettings& settings, Console& console) {
   require_plant_drive(setup, file, settings.model);
   DayState state(settings, basis_of(settings, setup), console);
   const std::vector<NewDay> todo = new_days(settings, state);
+  tell_disorder(state.days(), todo, console);
   std::shared_ptr<const DamperModel> damper = std::move(file.model);
 
   // The new days, then the charts of all.

@@ -85,6 +85,27 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
                  "plant"));
 }
 
+TEST_CASE("watch: days whose names tell another order are warned of" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder;
+  const std::string plant = folder.write("plant.yaml", kWatchedMass).string(),
+                    model = (folder.path() / "model.json").string();
+  save_model(to_model_file(load_parameter_set("kwok2006")), model);
+  const auto said = [&](const std::vector<std::string>& names) {
+    std::string words = "watch " + model + " --in " + plant;
+    for (const std::string& name : names)
+      words += ' ' + folder.write(name, "time [s],push [N],x [m],a\n0,0,0," + name + "\n").string();
+    return run_dashpot(words).output;
+  };
+  CHECK(contains(said({"day_1.csv", "day_10.csv", "day_2.csv"}),
+                 "day_2.csv comes behind day_10.csv, and its name says before"));
+  CHECK(contains(said({"2026-12-01_a.csv", "2026-11-30_a.csv"}), "and its name says before"));
+  for (const auto& names : {std::vector<std::string>{"day_1.csv", "day_2.csv", "day_10.csv"},
+                            {"30.11.2026.csv", "01.12.2026.csv"},
+                            {"monday_2.csv", "tuesday_1.csv"}})
+    CHECK(!contains(said(names), "and its name says before"));
+}
+
 TEST_CASE("watch: what cannot be is said before the work" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string plant = folder.write("plant.yaml", kWatchedMass).string(),
