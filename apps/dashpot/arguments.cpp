@@ -129,6 +129,12 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
   for (const Option& option : options)
     if (option.required && app.count(option.long_name()) == 0)
       throw UsageError(command, option.long_name() + " is missing", option.help);
+
+  // Nor may one be without effect.
+  for (const Option& option : options)
+    if (!option.needs.empty() && app.count(option.long_name()) > 0 && app.count(option.needs) == 0)
+      throw UsageError(option.long_name(), "has no effect without " + option.needs,
+                       "give both, or leave it out");
   return true;
 }
 

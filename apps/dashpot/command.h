@@ -46,6 +46,8 @@ struct Option {
   std::optional<double> minimum = {};  ///< least number allowed
   std::string default_text = {};       ///< in words, where the variable's value does not say it
   bool required = false;
+  /// Long name of the option without which this one has no effect, and is refused; empty: none.
+  std::string needs = {};
   std::string details = {};  ///< what follows `help` where there is room: a topic, the docs page
 
   bool is_positional() const { return names.front() != '-'; }

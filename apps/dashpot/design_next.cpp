@@ -100,12 +100,14 @@ std::vector<Option> next_options(NextSettings& settings) {
            .target = &settings.motions,
            .help = "sines that --next would record, in mm x Hz",
            .value = "LIST",
-           .default_text = "two at the family's speed"},
+           .default_text = "two at the family's speed",
+           .needs = "--next"},
           {.names = "--levels",
            .target = &settings.levels,
            .help = "currents that --next would record, A",
            .value = "LIST",
-           .default_text = "three"}};
+           .default_text = "three",
+           .needs = "--next"}};
 }
 
 int run_next(const NextSettings& settings, const DesignRequest& request,

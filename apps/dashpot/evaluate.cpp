@@ -178,7 +178,8 @@ Command evaluate_command() {
         .target = &settings->folder,
         .help = "folder of the traces",
         .value = "DIR",
-        .takes = Takes::Folder},
+        .takes = Takes::Folder,
+        .needs = "--traces"},
        threads_option(settings->threads)});
   return command;
 }

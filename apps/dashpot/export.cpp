@@ -177,7 +177,9 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
 
   // Without one, options of its vehicle would have no effect.
   for (const auto& [option, said] : {std::pair{"--damper", !vehicle.damper.empty()},
+                                     {"--plant", vehicle.plant != VehicleChoice{}.plant},
                                      {"--set", !vehicle.values.empty()},
+                                     {"--force-loop", !vehicle.force_loop.empty()},
                                      {"--in-car", vehicle.in_car}})
     if (said) throw UsageError(option, "goes with --controller");
 
@@ -278,12 +280,17 @@ std::vector<std::string> platform_names() {
 
 /// Binaries are of FMUs alone.
 void require_fmus(const ExportSettings& settings) {
+  const bool has_fmu = std::ranges::any_of(
+      settings.formats, [](const std::string& format) { return format.starts_with("fmu"); });
+  for (const auto& [option, is_said] : {std::pair{"--sources-only", settings.sources_only},
+                                        {"--compiler", !settings.compiler.empty()}})
+    if (is_said && !has_fmu)
+      throw UsageError(option, "is of the binaries in an FMU", "with --to fmu2 or fmu3");
   if (settings.platforms.empty()) return;
   if (settings.sources_only)
     throw UsageError("--platforms", "are of binaries, and --sources-only wants none",
                      "leave one of them out");
-  if (std::ranges::none_of(settings.formats,
-                           [](const std::string& format) { return format.starts_with("fmu"); }))
+  if (!has_fmu)
     throw UsageError("--platforms", "are of the binaries in an FMU",
                      "with --to fmu2 or fmu3; what --to c writes is compiled by any C compiler");
 }

@@ -296,12 +296,14 @@ std::vector<Option> in_plant_options(InPlantSettings& settings) {
            .help = "with --in: the grade of the sensors that it tries beside those that are there",
            .value = "NAME",
            .choices = grades,
-           .noun = "grade"},
+           .noun = "grade",
+           .needs = "--in"},
           {.names = "--profile",
            .target = &settings.profiles,
            .help = "with --in: numbers of plant and damper whose misfit is followed with all "
                    "others fitted anew; those that no sensor tells are so unasked",
-           .value = "LIST"}};
+           .value = "LIST",
+           .needs = "--in"}};
 }
 
 int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console) {

@@ -61,13 +61,28 @@ struct Bench {
   DriveUnit drive_unit = DriveUnit::None;
 };
 
+/// Throws UsageError at what only a damper has an effect of, where recordings teach alone.
+void require_no_damper(const InvertSettings& settings) {
+  for (const auto& [option, is_said] : {std::pair{"--amplitude", settings.amplitude > 0},
+                                        {"--frequency", settings.frequency > 0},
+                                        {"--current-max", settings.damper.current_max > 0},
+                                        {"--lag-rate", settings.damper.lag_rate >= 0},
+                                        {"--figure", !settings.figure.empty()}})
+    if (is_said)
+      throw UsageError(option, "is of a damper, and recordings alone are given",
+                       "name a MODEL beside them, or leave it out");
+}
+
 Bench make_bench(const InvertSettings& settings, Console& console) {
   Bench bench;
   const bool recorded = !settings.recordings.paths.empty();
   if (recorded) {
     bench.recordings = load_recordings(settings.recordings, console);
     bench.drive_unit = bench.recordings->drive_unit;
-    if (!settings.damper.is_made()) return bench;
+    if (!settings.damper.is_made()) {
+      require_no_damper(settings);
+      return bench;
+    }
   }
 
   // A damper judges what recordings have taught, so both must be driven in one unit.
@@ -325,7 +340,8 @@ Command invert_command() {
                              .help = "a dataset file that states channels, units and conditions",
                              .value = "FILE",
                              .takes = Takes::File,
-                             .default_text = "dataset.yaml beside the recordings, if there"});
+                             .default_text = "dataset.yaml beside the recordings, if there",
+                             .needs = "--recordings"});
 
   // The networks and the coil in front of the damper.
   append(command.options, network_options(s));

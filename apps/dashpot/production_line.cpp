@@ -84,12 +84,14 @@ std::vector<Option> line_options(LineSettings& settings) {
        .target = &settings.faults,
        .help = "share of the line's dampers with a weak coil, a leak, friction or a loss of gas",
        .value = "SHARE",
-       .minimum = 0},
+       .minimum = 0,
+       .needs = "--dampers"},
       {.names = "--trend",
        .target = &settings.trend,
        .help = "share by which forces grow from the first damper of the line to the last",
        .value = "SHARE",
-       .minimum = 0}};
+       .minimum = 0,
+       .needs = "--dampers"}};
 }
 
 int record_line(const LineSettings& line, const CampaignSettings& campaign, const fs::path& folder,

@@ -176,7 +176,8 @@ Command simulate_command() {
        units_option(settings->units),
        {.names = "--mat",
         .target = &settings->mat,
-        .help = "traces as MATLAB files instead of CSV"},
+        .help = "traces as MATLAB files instead of CSV",
+        .needs = "--output"},
        {.names = "--samples",
         .target = &settings->samples,
         .help = "also write all samples of the traces as plain doubles, for programs that draw",
@@ -184,6 +185,8 @@ Command simulate_command() {
         .takes = Takes::Folder},
        figures_option(settings->results.figures),
        list_option(settings->list)});
+  for (Option& option : command.options)
+    if (option.long_name() == "--figures") option.needs = "--output";
   return command;
 }
 

@@ -69,6 +69,29 @@ Task recorded_task(const std::string& path, Console& console) {
           "measured, " + record.name};
 }
 
+/// Throws UsageError at an option of the motion or the wanted force that another one leaves without
+/// effect.
+void require_effect(const TrackSettings& settings) {
+  if (settings.force > 0 && settings.wanted != "sine")
+    throw UsageError("--force", "is the amplitude of a sine, and the wanted force is random",
+                     "with --wanted sine");
+
+  // A recording has its motion, its force and its rate.
+  if (settings.recording.empty()) return;
+  const TrackSettings usual;
+  for (const auto& [option, is_said] :
+       {std::pair{"--wanted", settings.wanted != usual.wanted},
+        {"--band", settings.band != usual.band},
+        {"--motion", settings.motion != usual.motion},
+        {"--amplitude", settings.amplitude != usual.amplitude},
+        {"--frequency", settings.frequency != usual.frequency},
+        {"--duration", settings.duration != usual.duration},
+        {"--sample-rate", settings.sample_rate != usual.sample_rate}})
+    if (is_said)
+      throw UsageError(option, "has no effect with --recording, which is followed as it is",
+                       "leave one of them out");
+}
+
 Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverOptions driver,
                Console& console) {
   if (!settings.recording.empty()) return recorded_task(settings.recording, console);
@@ -232,6 +255,7 @@ Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, c
 }
 
 int run_track(const TrackSettings& settings, Console& console) {
+  require_effect(settings);
   const Damper damper = load_damper(settings.damper, "track", console);
   const DriverOptions options = make_driver(settings, damper);
   const Driver driver(options);

@@ -1,0 +1,32 @@
+#include "program.h"
+
+TEST_CASE("options that serve another one are refused without it" * doctest::test_suite("long")) {
+  const std::string data = small_campaign().string();
+  const std::pair<std::string, std::string> cases[] = {
+      {"simulate --mat", "--mat: has no effect without --output; give both, or leave it out"},
+      {"simulate --figures", "--figures: has no effect without --output"},
+      {"evaluate m.json " + data + " -o traces", "--output: has no effect without --traces"},
+      {"bench --faults 0.5", "--faults: has no effect without --dampers"},
+      {"bench --trend 0.5", "--trend: has no effect without --dampers"},
+      {"design passenger_car --motions 5x1", "--motions: has no effect without --next"},
+      {"design passenger_car --levels 1", "--levels: has no effect without --next"},
+      {"identify " + data + " --profile mass", "--profile: has no effect without --in"},
+      {"identify " + data + " --grade car", "--grade: has no effect without --in"},
+      {"invert --parameters mr1 --dataset d.yaml", "--dataset: has no effect without --recordings"},
+      {"invert --recordings " + data + " --figure f",
+       "--figure: is of a damper, and recordings alone are given; name a MODEL beside them"},
+      {"track --parameters mr1 --force 800", "--force: is the amplitude of a sine"},
+      {"track --parameters mr1 --recording " + data + " --duration 5",
+       "--duration: has no effect with --recording, which is followed as it is"},
+      {"export --parameters mr1 --to c --sources-only", "--sources-only: is of the binaries"},
+      {"export --parameters mr1 --to c --compiler cc", "--compiler: is of the binaries in an FMU"},
+      {"export --parameters mr1 --to c --force-loop integral=1", "--force-loop: goes with --cont"},
+      {"export --parameters mr1 --to c --plant baig", "--plant: goes with --controller"}};
+  for (const auto& [arguments, said] : cases) {
+    const ProgramResult result = run_dashpot(arguments);
+    CAPTURE(arguments);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(contains(result.output, said));
+  }
+}
