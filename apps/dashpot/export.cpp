@@ -110,7 +110,10 @@ void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
 std::vector<ExportedFile> damper_files(const ExportSettings& settings, const ExportOptions& options,
                                        Console& console) {
   const ModelFile file = load_damper_file(settings.damper, "export", console);
-  if (const std::string note = extrapolation_note(exported_model(file), options); !note.empty())
+  const PrintUnits asked =
+      options.units.empty() ? PrintUnits() : PrintUnits::parse(options.units, "units");
+  if (const std::string note = extrapolation_note(exported_model(file), options, asked.of("m/s"));
+      !note.empty())
     console.warn("the table is " + note);
   const bool settable = has_settable(*file.model);
   if (settings.tunable && !settable)

@@ -63,20 +63,34 @@ TEST_CASE("tables on a grid of the user's: what lies beyond the data says so") {
   CHECK(map.extrapolated == std::vector<double>{0, 0, 1, 0, 0, 1, 1, 1, 1});
   CHECK_CLOSE(map.at(2, 2), (1000 + 500 * 3) * 0.5 + 20, 1e-12, 0);
 
-  // In the heads of every layout; not where the grid stays within.
-  const std::string note = "extrapolated beyond -300 ... 300 mm/s and 0 ... 2 A";
-  const auto files = write_tables(exported(model), options);
-  CHECK(files[0].content.starts_with("force[N]: velocity[m/s] \\ current[A]; " + note +
-                                     ",0,0.84,3\n-0.2,"));
+  // In the heads of every layout, in the units and the sign of its numbers; not where the grid
+  // stays within.
+  ExportedModel uneven = exported(model);
+  uneven.domain.velocity_min = -0.2;
+  const std::string drive = " and 0 ... 2 A";
+  const auto files = write_tables(uneven, options);
+  CHECK(
+      files[0].content.starts_with("force[N]: velocity[m/s] \\ current[A]; extrapolated beyond "
+                                   "-0.2 ... 0.3 m/s" +
+                                   drive + ",0,0.84,3\n-0.2,"));
   CHECK(files[2].content.find("extrapolated") != std::string::npos);
-  CHECK(write_dpr(exported(model), options)[1].content.find("$ " + note) != std::string::npos);
-  CHECK(extrapolation_note(exported(model), {.velocities = {0.3}, .currents = {2}}).empty());
+  CHECK(write_dpr(uneven, options)[1].content.find("$ extrapolated beyond -200 ... 300 mm/s" +
+                                                   drive) != std::string::npos);
+  const PrintUnit speed{"mm/s", 1000};
+  CHECK(extrapolation_note(uneven, {.velocities = {0.3}, .currents = {2}}, speed).empty());
 
   // Compression is positive there, and rises.
-  const std::string carsim = write_carsim(exported(model), options)[0].content;
-  CHECK(carsim.starts_with("compression rate [mm/s]; " + note +
+  const std::string carsim = write_carsim(uneven, options)[0].content;
+  CHECK(carsim.starts_with("compression rate [mm/s]; extrapolated beyond -300 ... 200 mm/s" +
+                           drive +
                            ",force [N] at 0 A,force [N] at 0.84 A,force [N] at 3 A\n-500,"));
   CHECK(carsim.find("\n200," + format_exact(-map.at(0, 0)) + ",") != std::string::npos);
+
+  // Units that are asked for are those of the CSV files; CarSim and Adams keep theirs.
+  ExportOptions inches = options;
+  inches.units = "lbf,in/s";
+  CHECK(write_tables(uneven, inches)[0].content.find("-7.874 ... 11.81 in/s") != std::string::npos);
+  CHECK(write_carsim(uneven, inches)[0].content == carsim);
 }
 
 TEST_CASE("tables: heads are numbers that people read") {

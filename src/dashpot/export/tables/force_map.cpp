@@ -100,7 +100,8 @@ ForceMap force_map(const ExportedModel& model, double sample_time,
   return map;
 }
 
-std::string extrapolation_note(const ExportedModel& model, const ExportOptions& options) {
+std::string extrapolation_note(const ExportedModel& model, const ExportOptions& options,
+                               const PrintUnit& speed) {
   const Domain& d = model.domain;
   const auto leaves = [](const std::vector<double>& grid, double low, double high) {
     return std::ranges::any_of(grid, [&](double value) { return !is_within(value, low, high); });
@@ -108,12 +109,11 @@ std::string extrapolation_note(const ExportedModel& model, const ExportOptions& 
   if (!leaves(options.velocities, d.velocity_min, d.velocity_max) &&
       !leaves(options.currents, d.current_min, d.current_max))
     return {};
-  const PrintUnit speed =
-      (options.units.empty() ? PrintUnits() : PrintUnits::parse(options.units, "units")).of("m/s");
-  return "extrapolated beyond " + format_number(speed.factor * d.velocity_min) + " ... " +
-         format_number(speed.factor * d.velocity_max) + ' ' + speed.name + " and " +
-         format_number(d.current_min) + " ... " + format_number(d.current_max) + ' ' +
-         unit_of(model.drive_unit);
+  const auto [low, high] =
+      std::minmax({0 + speed.factor * d.velocity_min, 0 + speed.factor * d.velocity_max});
+  return "extrapolated beyond " + format_number(low) + " ... " + format_number(high) + ' ' +
+         speed.name + " and " + format_number(d.current_min) + " ... " +
+         format_number(d.current_max) + ' ' + unit_of(model.drive_unit);
 }
 
 CurrentMap inverse_of(const ForceMap& map) {

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/base/print_units.h"
 #include "dashpot/export.h"
 
 namespace dashpot {
@@ -25,8 +26,10 @@ ForceMap force_map(const ExportedModel& model, double sample_time,
                    const std::vector<double>& currents = {});
 
 /// "extrapolated beyond -200 ... 200 mm/s and 0 ... 2 A": the domain, where the options' grid
-/// leaves it; else empty.
-std::string extrapolation_note(const ExportedModel& model, const ExportOptions& options);
+/// leaves it; else empty. `speed` is the unit of velocities in what the note stands in; its factor
+/// is negative where compression counts positive there.
+std::string extrapolation_note(const ExportedModel& model, const ExportOptions& options,
+                               const PrintUnit& speed);
 
 /// The command over velocity and wanted force: the least one at which the map has the force, or the
 /// one that comes nearest.

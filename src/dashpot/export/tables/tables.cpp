@@ -86,8 +86,6 @@ std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportO
   const std::string name = export_name(model, options);
   const ForceMap map = asked_map(model, options);
   const CurrentMap inverse = inverse_of(map);
-  const std::string note = extrapolation_note(model, options);
-
   // The same numbers for spreadsheets, and in SI for MATLAB.
   const std::vector<MatVariable> matrices{
       column("velocity", map.velocity),
@@ -100,6 +98,7 @@ std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportO
       options.units.empty() ? PrintUnits::si() : PrintUnits::parse(options.units, "units");
   const PrintUnit speed = units.of("m/s"), force = units.of("N"),
                   drive{unit_of(model.drive_unit), 1};
+  const std::string note = extrapolation_note(model, options, speed);
   return {
       {name + "_force.csv", csv({"force", "velocity", "current"}, note, {map.force, force},
                                 {map.velocity, speed}, {map.current, drive})},
@@ -113,12 +112,13 @@ std::vector<ExportedFile> write_carsim(const ExportedModel& model, const ExportO
   const ForceMap map = asked_map(model, options);
 
   // Compression counts positive there: rates and forces change their sign, and their order.
-  std::string text = with_note("compression rate [mm/s]", extrapolation_note(model, options));
+  const PrintUnit rate{"mm/s", -1000};
+  std::string text = with_note("compression rate [mm/s]", extrapolation_note(model, options, rate));
   for (const double current : map.current)
     text += fmt::format(",force [N] at {} {}", format_number(current), unit_of(model.drive_unit));
   text += '\n';
   for (std::size_t v = map.velocity.size(); v-- > 0;) {
-    text += format_number(0 - 1000 * map.velocity[v], kDigits);
+    text += format_number(0 + rate.factor * map.velocity[v], kDigits);
     for (std::size_t i = 0; i < map.current.size(); ++i)
       text += ',' + format_exact(0 - map.at(v, i));
     text += '\n';
@@ -134,7 +134,7 @@ std::vector<ExportedFile> write_dpr(const ExportedModel& model, const ExportOpti
     const std::string drive = format_number(map.current[i]) + ' ' + unit_of(model.drive_unit);
     files.push_back({fmt::format("{}_{:02}.dpr", name, i),
                      dpr(map, i, name + " at " + drive + ", made by Dashpot " + options.version,
-                         extrapolation_note(model, options))});
+                         extrapolation_note(model, options, {"mm/s", 1000}))});
   }
   return files;
 }
