@@ -3,6 +3,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/model_in_plant.h"
@@ -84,7 +85,7 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
 void observe_rides(const dashpot_model& model, const dashpot_rides* rides, const char* plant,
                    ObserveOptions options, const dashpot_monitor* monitor,
                    dashpot_recordings** estimates, char** report) {
-  const InPlantSetup setup = setup_of(plant);
+  const InPlantSetup setup = with_identified_noise(setup_of(plant), model.file, "the model");
   const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
   require_plant_drive(setup, model.file, model.name);
   const std::shared_ptr<const DamperModel> damper = model.damper->with_offset(0);
@@ -137,7 +138,7 @@ WatchHistory history_of(const std::optional<Value>& state, const Value& basis) {
 /// The charts of all days as JSON, and the state that the next days go on from.
 std::string watch_rides(const dashpot_model& model, const dashpot_rides* rides, const char* plant,
                         WatchWords words, const dashpot_monitor* monitor) {
-  const InPlantSetup setup = setup_of(plant);
+  const InPlantSetup setup = with_identified_noise(setup_of(plant), model.file, "the model");
   WatchOptions& options = words.options;
   require_plant_drive(setup, model.file, model.name);
   const Value basis = basis_of(model, setup, options);

@@ -20,6 +20,7 @@
 #include "dashpot/export/c/c_observer.h"
 #include "dashpot/export/fmu/fmu.h"
 #include "dashpot/export/tables/force_map.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/observe.h"
 #include "export_control.h"
@@ -147,8 +148,10 @@ void require_blocks(const ExportSettings& settings, const std::string& where,
 /// The observer of a plant with this damper in each of its struts.
 CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& options,
                            Console& console) {
-  const InPlantSetup setup = read_in_plant_setup(settings.plant);
   ModelFile file = load_damper_file(settings.damper, "export", console);
+  const InPlantSetup setup =
+      with_identified_noise(read_in_plant_setup(settings.plant), file, settings.damper.model);
+  if (const std::string words = identified_noise_words(setup); !words.empty()) console.note(words);
   ObserveOptions observed;
   observed.force = force_errors(settings.force_errors);
   const double sample_time = options.sample_time > 0 ? options.sample_time

@@ -105,9 +105,28 @@ DocumentTable sensor_table(const InPlantReport& report) {
   return table;
 }
 
+/// The noise of what states none: what was found, and what could not be told.
+std::vector<std::string> noise_lines_of(const InPlantReport& report) {
+  std::vector<std::string> told, untold, lines;
+  for (const FoundNoise& one : report.noise)
+    if (one.deviation > 0)
+      told.push_back(one.channel + " " + format_number(one.deviation, 3) + " " + one.unit);
+    else
+      untold.push_back(one.channel);
+  if (!told.empty())
+    lines.push_back(
+        "Noise that was not stated was found, and stands in the files for 'observe', "
+        "'watch' and 'export --in': " +
+        join(told, ", ") + '.');
+  if (!untold.empty())
+    lines.push_back("The noise of " + join(untold, ", ") +
+                    " cannot be told from the model's error: state it for 'observe'.");
+  return lines;
+}
+
 /// What can be told, and what the fit rests on, in words.
 std::vector<std::string> knowable_lines(const InPlantReport& report) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = noise_lines_of(report);
   const Knowable& known = report.knowable;
 
   // What these sensors tell of the unknowns.

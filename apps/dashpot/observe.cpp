@@ -14,6 +14,7 @@
 #include "dashpot/base/date.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/record/record_file.h"
@@ -93,8 +94,9 @@ std::vector<std::string> model_files(const std::string& model,
   return files;
 }
 
-/// The dampers in a plant by their files, each of which is read once.
-ObservedDampers load_dampers(const std::vector<std::string>& files, const InPlantSetup& setup,
+/// The dampers in a plant by their files, each of which is read once. The setup gets the noise
+/// that they know of.
+ObservedDampers load_dampers(const std::vector<std::string>& files, InPlantSetup& setup,
                              Console& console) {
   ObservedDampers dampers;
   for (std::size_t d = 0; d < files.size(); ++d) {
@@ -105,6 +107,7 @@ ObservedDampers load_dampers(const std::vector<std::string>& files, const InPlan
     }
     ModelFile file = load_damper_file({.model = files[d], .parameters = {}}, "observe", console);
     require_plant_drive(setup, file, files[d]);
+    setup = with_identified_noise(std::move(setup), file, files[d]);
     dampers.push_back({std::move(file.model), file.domain});
   }
   return dampers;
@@ -250,12 +253,22 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
                   errors + " (--force-error " + words + ").");
 
   // The sensors, and roads that nothing measured.
+  const auto origin = [](double noise, const IdentifiedNoise& identified) {
+    if (!(noise > 0)) return std::string("found in these recordings");
+    return identified.from.empty() ? "as stated" : "as identified (" + identified.from + ")";
+  };
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
-    const std::string unit = unit_of(setup.sensors[s].place, plant);
-    lines.push_back(fmt::format("Noise of {}: {} {}{}.", setup.sensors[s].channel,
+    const PlantSensor& sensor = setup.sensors[s];
+    const std::string unit = unit_of(sensor.place, plant);
+    lines.push_back(fmt::format("Noise of {}: {} {}, {}.", sensor.channel,
                                 quantity(report.noise.sensors[s], unit), unit_name(unit),
-                                setup.sensors[s].noise > 0 ? ", as stated" : ", found"));
+                                origin(sensor.noise, sensor.identified)));
   }
+  for (const PlantInputChannel& input : setup.inputs)
+    if (const std::string unit = unit_of(input.place.kind); input.noise > 0)
+      lines.push_back(fmt::format("Noise of {}: {} {}, {}.", input.channel,
+                                  quantity(input.noise, unit), unit_name(unit),
+                                  origin(input.noise, input.identified)));
   for (const PlantInputChannel& input : setup.inputs)
     if (input.road)
       lines.push_back(fmt::format("Road, not measured: G_d(n0) {} m^3 at {} m/s{}.",
@@ -409,7 +422,7 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   if (settings.recordings.empty()) throw UsageError("RECORDING", "is missing", "a file");
   if (!(settings.level > 0 && settings.level < 100))
     throw UsageError("--band", "is not between 0 and 100 %", "90");
-  const InPlantSetup setup = read_in_plant_setup(settings.plant);
+  InPlantSetup setup = read_in_plant_setup(settings.plant);
   require_setup(setup);
   const ObservedDampers dampers =
       load_dampers(model_files(settings.model, observer_names(setup).struts), setup, console);
@@ -461,8 +474,8 @@ Command observe_command() {
           "of its dampers, by a Kalman filter and a smoother behind it: each damper's force, which "
           "no sensor measures, deflections and velocities, and the road where nothing measured it, "
           "each with a band. A model may be wrong: the error of its force is one of the unknowns. "
-          "How large that is, and the sensors' noise where the plant does not state it, is found "
-          "from the recordings.",
+          "How large that is, and the sensors' noise where neither the plant states it nor the "
+          "'identify --in' that made its file or the model found it, is found from the recordings.",
       .options =
           {// The damper, the recordings, and the plant.
            {.names = "MODEL",

@@ -17,6 +17,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/store.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/report/words.h"
 #include "data.h"
@@ -233,8 +234,9 @@ int run_watch(const WatchSettings& settings, Console& console) {
     throw UsageError("--in", "is missing", "the plant and its sensors: docs/in-plant.md");
   const WatchOptions options = watch_options(settings, console);
   const PrintUnits units = page_units(settings.units);
-  const InPlantSetup setup = read_in_plant_setup(settings.plant);
   ModelFile file = load_damper_file({.model = settings.model, .parameters = {}}, "watch", console);
+  const InPlantSetup setup =
+      with_identified_noise(read_in_plant_setup(settings.plant), file, settings.model);
   require_plant_drive(setup, file, settings.model);
   DayState state(settings, basis_of(settings, setup), console);
   const std::vector<NewDay> todo = new_days(settings, state);

@@ -7,6 +7,7 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/words.h"
@@ -247,6 +248,8 @@ Document watch_document(const Watched& watched) {
   for (const WatchedQuantity& q : watched.quantities)
     if (q.chart.alarm && &q != watched.first_alarm())
       charts.remarks.push_back("Also: " + alarm_text(watched, q) + ".");
+  if (const std::string noise = identified_noise_words(watched.plant.setup); !noise.empty())
+    charts.remarks.push_back(noise);
   charts.tables = {chart_table(watched)};
   charts.figures = {chart_figure(watched)};
   DocumentSection days{.name = "days", .title = "Days", .paragraphs = {}};

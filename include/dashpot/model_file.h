@@ -49,6 +49,14 @@ Dissipation dissipation(const DamperModel& model, const Domain& domain, int thre
 /// What is wrong, in words that follow the model's name and a colon; empty where it dissipates.
 std::string activity(const Dissipation& result, DriveUnit drive_unit);
 
+/// The noise of a sensor, or of the sensor of an input, that nobody had stated, as an
+/// identification inside a plant found it beside the damper.
+struct FoundNoise {
+  std::string channel, unit;
+  double deviation = 0;  ///< of white noise, in that unit, SI; 0: could not be told
+  double zero = 0;       ///< how far the sensor's zero may be off, likewise; 0: as far as its noise
+};
+
 /// A model with all that must travel with it: a versioned JSON file.
 struct ModelFile {
   std::unique_ptr<DamperModel> model;
@@ -61,6 +69,9 @@ struct ModelFile {
   /// Around the force, where left-out records allow one.
   std::optional<ForceBand> interval;
   std::optional<Dissipation> dissipation;  ///< as measured when the model was made
+  /// Of the plant in which the model was identified; observers take it where their plant says
+  /// nothing of a sensor of that name and unit.
+  std::vector<FoundNoise> noise_found = {};
 };
 
 /// As the file has it, or measured now.

@@ -92,6 +92,33 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   CHECK(contains(fitted.output, "Sensors, one sample ahead"));
   CHECK(contains(read_file(found + "/plants/tanh_guo.json"), "\"tyre_stiffness\""));
   CHECK(contains(read_file(found + "/models/tanh_guo.json"), "tanh_guo"));
+
+  // The noise that it found goes into both files, and is taken where the plant states none.
+  CHECK(contains(fitted.output, "Noise that was not stated was found"));
+  CHECK(contains(read_file(found + "/plants/tanh_guo.json"), "\"noise_found\": \"0.0"));
+  CHECK(load_model(found + "/models/tanh_guo.json").noise_found.size() >= 2);
+  const std::string guo = found + "/models/tanh_guo.json";
+  CHECK(contains(run_dashpot("observe " + guo + " --in " + found + "/plants/tanh_guo.json " +
+                             rides + "/ride_1.csv --output " + seen)
+                     .output,
+                 ", as identified (the plant's file)."));
+  std::string own = kRoadlessCar;
+  own.replace(own.find("unknown"), 7, "295200 N/m");
+  const std::string mine = folder.write("own.yaml", own).string();
+  const ProgramResult unstated = run_dashpot("observe " + guo + " --in " + mine + ' ' + rides +
+                                             "/ride_1.csv --output " + seen);
+  CHECK(contains(unstated.output, ", as identified (" + guo + ")."));
+  CHECK_FALSE(contains(unstated.output, "neither plant nor model"));
+  CHECK(contains(run_dashpot("export " + guo + " --in " + mine +
+                             " --force-error 5@0.01 --to c --output " + seen)
+                     .output,
+                 "Noise not stated, as 'identify --in' found it (" + guo + "): az_body 0.0"));
+  own.replace(own.find("body}"), 5, "body, noise: 0.05}");
+  CHECK(
+      contains(run_dashpot("observe " + guo + " --in " + folder.write("stated.yaml", own).string() +
+                           ' ' + rides + "/ride_1.csv --output " + seen)
+                   .output,
+               ", as stated."));
   std::string alone = kRoadlessCar;
   const std::size_t others = alone.find("  - {channel: az_wheel");
   alone.erase(others, alone.find("voltage:") - others);

@@ -65,6 +65,20 @@ TEST_CASE("a file keeps the verdict on its model, and one without is measured") 
   CHECK(contains(activity(dissipation_of(again), DriveUnit::Volt), "it diverges at 40 Hz"));
 }
 
+TEST_CASE(
+    "a file keeps the noise that was found beside its model, and says what is wrong with it") {
+  ModelFile file = spencer();
+  CHECK(parse_model(format_model(file), "m.json").noise_found.empty());
+  file.noise_found = {{"az_body", "m/s^2", 0.1 + 0.2, 0.5}};
+  const ModelFile again = parse_model(format_model(file), "m.json");
+  CHECK(format_model(again) == format_model(file));
+  REQUIRE(again.noise_found.size() == 1);
+  CHECK(again.noise_found[0].deviation == 0.1 + 0.2);
+  file.noise_found[0].deviation = 0;
+  CHECK(contains(message_of([&] { parse_model(format_model(file), "m.json"); }),
+                 "deviation is not above 0"));
+}
+
 TEST_CASE("a law's file comes back as it was, to the last bit") {
   const TemporaryFolder folder;
   const ModelFile saved = spencer();

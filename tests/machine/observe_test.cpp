@@ -149,7 +149,7 @@ TEST_CASE("observe: a plant that states no sensor's noise is told what that does
   const ObserveReport report =
       observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, {});
   REQUIRE(!report.warnings.empty());
-  CHECK(contains(report.warnings.back(), "the plant states no sensor's noise"));
+  CHECK(contains(report.warnings.back(), "neither plant nor model says"));
 }
 
 TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure" *

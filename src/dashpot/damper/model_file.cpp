@@ -14,6 +14,30 @@ namespace {
 
 constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 
+Value to_json(const std::vector<FoundNoise>& found) {
+  Value list = Value::array();
+  for (const FoundNoise& one : found)
+    list.push_back(Value::object({{"channel", one.channel},
+                                  {"unit", one.unit},
+                                  {"deviation", one.deviation},
+                                  {"zero", one.zero}}));
+  return list;
+}
+
+std::vector<FoundNoise> read_noise_found(const Value& value) {
+  std::vector<FoundNoise> found;
+  for (const Value& item : value.items()) {
+    ObjectReader reader(item, "a noise that was found");
+    FoundNoise one{reader.string("channel"), reader.string("unit"), reader.number("deviation"),
+                   reader.number("zero", 0)};
+    reader.finish();
+    if (!(one.deviation > 0)) throw Error(item.where(), "deviation is not above 0");
+    if (!(one.zero >= 0)) throw Error(item.where(), "zero is below 0");
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
 /// A law says its drive unit itself, and its parameters have bounds all over the file's domain.
 void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
   if (law.drive_unit() != file.drive_unit)
@@ -42,6 +66,7 @@ std::string format_model(const ModelFile& file) {
   if (file.moving_mass > 0) document.add("moving_mass_kg", file.moving_mass);
   if (file.interval) document.add("interval", to_json(*file.interval));
   if (file.dissipation) document.add("dissipation", to_json(*file.dissipation));
+  if (!file.noise_found.empty()) document.add("noise_found", to_json(file.noise_found));
   return format_json(document);
 }
 
@@ -77,6 +102,8 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
     file.interval = read_force_band(*interval);
   if (const Value* dissipation = reader.optional("dissipation"))
     file.dissipation = read_dissipation(*dissipation);
+  if (const Value* found = reader.optional("noise_found"))
+    file.noise_found = read_noise_found(*found);
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

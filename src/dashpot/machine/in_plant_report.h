@@ -12,6 +12,7 @@
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 
@@ -57,6 +58,8 @@ struct InPlantReport {
   std::vector<FittedParameter> plant, damper, nuisances;
   Knowable knowable;
   PlantAdvice advice;
+  /// Of sensors and inputs that state none; what the fit cannot tell has no deviation.
+  std::vector<FoundNoise> noise;
   std::vector<SensorFigures> sensors;  ///< without the road: one sample ahead, not in free run
   std::vector<InPlantTrace> traces;
   std::vector<std::string> warnings;

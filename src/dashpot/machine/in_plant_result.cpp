@@ -1,5 +1,7 @@
 #include "dashpot/machine/in_plant_result.h"
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "dashpot/base/any_number.h"
@@ -27,6 +29,13 @@ Value value_of(const SensorFigures& s) {
                         {"error_fitted", s.training},
                         {"error_held_back", s.held_back},
                         {"offset", s.offset}});
+}
+
+Value value_of(const FoundNoise& one) {
+  Value value = Value::object({{"channel", one.channel}, {"unit", one.unit}});
+  value.add("deviation", one.deviation > 0 ? Value(one.deviation) : Value());
+  value.add("zero", one.zero);
+  return value;
 }
 
 template <class T>
@@ -82,6 +91,7 @@ Value to_json(const InPlantReport& r, const std::string& law) {
                               {"plant", values_of(r.plant)},
                               {"damper", values_of(r.damper)},
                               {"nuisances", values_of(r.nuisances)},
+                              {"noise_found", values_of(r.noise)},
                               {"singular_values", Value::array(r.knowable.singular_values)},
                               {"without_effect", Value::array(r.knowable.without_effect)},
                               {"confounded", std::move(confounded)},
@@ -99,11 +109,13 @@ ModelFile found_damper(const InPlantReport& report, const InPlantSetup& setup, d
   file.sample_time = sample_time;
   file.domain = report.domain;
   file.dissipation = dissipation(*file.model, file.domain);
+  std::ranges::copy_if(report.noise, std::back_inserter(file.noise_found),
+                       [](const FoundNoise& one) { return one.deviation > 0; });
   return file;
 }
 
 Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
-  Value recordings = Value::array(), errors = Value::array();
+  Value recordings = Value::array(), errors = Value::array(), origins = Value::array();
 
   // What was found of each recording.
   for (const ObservedRecording& one : report.recordings) {
@@ -126,9 +138,14 @@ Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
   // What was taken as uncertain.
   for (const ForceError& one : report.noise.force)
     errors.push_back(Value::object({{"deviation_N", one.deviation}, {"memory_s", one.memory}}));
+  for (const PlantSensor& sensor : setup.sensors)
+    origins.push_back(!(sensor.noise > 0)              ? "found in these recordings"
+                      : sensor.identified.from.empty() ? "stated"
+                                                       : sensor.identified.from);
   return Value::object({{"plant", setup.model->name},
                         {"force_errors", std::move(errors)},
                         {"sensor_noise", Value::array(report.noise.sensors)},
+                        {"sensor_noise_from", std::move(origins)},
                         {"roughness_m3", report.noise.roughness},
                         {"steps_per_sample", report.steps},
                         {"cpu_seconds", report.seconds},

@@ -35,6 +35,14 @@ struct RoadPrior {
   double speed = 0;      ///< m/s
 };
 
+/// What an identification found of a sensor that said nothing of its noise. Observers may take it
+/// (found_noise.h); all else finds it anew.
+struct IdentifiedNoise {
+  double deviation = 0;   ///< SI; 0: nothing was found
+  double zero = 0;        ///< how far its zero may be off, likewise; 0: as far as its noise
+  std::string from = {};  ///< who says so, where it stands in the place of a noise that is stated
+};
+
 struct PlantInputChannel {
   std::string channel;  ///< empty: nothing measures it, and `road` says what is known of it
   PlantInputPlace place;
@@ -45,6 +53,7 @@ struct PlantInputChannel {
   std::string follows = {};
   double later = 0;
   bool finds_later = false;  ///< `later` is where the search for it starts
+  IdentifiedNoise identified = {};
 };
 
 struct PlantSensor {
@@ -54,6 +63,7 @@ struct PlantSensor {
   double zero = 0;           ///< how far its zero may be off, likewise; 0: as far as its noise
   bool finds_delay = false;  ///< its delay is an unknown
   double delay = 0;          ///< s, known or where the search starts
+  IdentifiedNoise identified = {};
 };
 
 struct PlantOfMatrices;

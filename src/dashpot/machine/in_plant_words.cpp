@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 #include "dashpot/base/file.h"
 #include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
@@ -285,6 +287,10 @@ double read_deviation(ObjectReader& reader, std::string_view key, std::string_vi
   return deviation;
 }
 
+IdentifiedNoise read_identified(ObjectReader& reader, std::string_view unit) {
+  return {read_deviation(reader, "noise_found", unit), read_deviation(reader, "zero_found", unit)};
+}
+
 /// A road without a channel: its class, or that it is unknown, and the speed.
 RoadPrior read_road(ObjectReader& reader, const std::string& kind, const Value& value) {
   if (kind != "ground")
@@ -342,8 +348,10 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
     read_follower(reader, input, at, value);
   else if (input.channel.empty())
     input.road = read_road(reader, kind, value);
-  else if (known)
+  else if (known) {
     input.noise = read_deviation(reader, "noise", unit_of(*known));
+    input.identified = read_identified(reader, unit_of(*known));
+  }
   reader.finish();
   if (!known)
     throw Error(value.where(), "unknown kind of input '" + kind + "'",
@@ -363,12 +371,24 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
   const std::string unit = unit_of(sensor.place, plant);
   sensor.noise = read_deviation(reader, "noise", unit);
   sensor.zero = read_deviation(reader, "zero", unit);
+  sensor.identified = read_identified(reader, unit);
   if (const Value* delay = reader.optional("delay")) {
     sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
     if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
   }
   reader.finish();
   return sensor;
+}
+
+/// What is stated of a sensor's noise, and what was found of it, with its unit.
+void add_noise(double stated, const IdentifiedNoise& identified, const std::string& unit,
+               Value& sensor) {
+  const auto with_unit = [&](double value) { return fmt::format("{} {}", value, unit); };
+  const bool is_stated = stated > 0 && identified.from.empty();
+  if (is_stated) sensor.add("noise", stated);
+  if (is_stated || !(identified.deviation > 0)) return;
+  sensor.add("noise_found", with_unit(identified.deviation));
+  if (identified.zero > 0) sensor.add("zero_found", with_unit(identified.zero));
 }
 
 }  // namespace
@@ -449,7 +469,7 @@ Value to_json(const InPlantSetup& setup) {
     if (input.place.kind == PlantInput::Force)
       one.add("at", plant.coordinates[input.place.coordinate].name);
     if (input.place.tyre) one.add("at", place_name(plant.tyres[*input.place.tyre]));
-    if (input.noise > 0) one.add("noise", input.noise);
+    add_noise(input.noise, input.identified, unit_of(input.place.kind), one);
     if (input.road) {
       std::string road_class = "unknown";
       for (char letter = 'A'; letter <= 'H'; ++letter)
@@ -471,8 +491,10 @@ Value to_json(const InPlantSetup& setup) {
       one.add("at", plant.coordinates[sensor.place.coordinate].name);
     else if (plant.struts.size() > 1)
       one.add("at", plant.struts[sensor.place.strut].name);
-    if (sensor.noise > 0) one.add("noise", sensor.noise);
-    if (sensor.zero > 0) one.add("zero", sensor.zero);
+    add_noise(sensor.noise, sensor.identified, unit_of(sensor.place, plant), one);
+    if (sensor.zero > 0 &&
+        (sensor.identified.from.empty() || sensor.zero != sensor.identified.zero))
+      one.add("zero", sensor.zero);
     if (sensor.finds_delay)
       one.add("delay", "unknown");
     else if (sensor.delay != 0)
@@ -498,13 +520,20 @@ Value to_json(const InPlantSetup& setup) {
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
   for (const FittedParameter& p : report.plant) setup.known.emplace_back(p.name, p.value);
   setup.unknown.clear();
+  const auto identified = [&](const std::string& channel, double stated) {
+    const auto one = std::ranges::find(report.noise, channel, &FoundNoise::channel);
+    if (stated > 0 || one == report.noise.end()) return IdentifiedNoise{};
+    return IdentifiedNoise{one->deviation, one->zero};
+  };
   for (PlantInputChannel& input : setup.inputs) {
+    input.identified = identified(input.channel, input.noise);
     for (const FittedParameter& p : report.nuisances)
       if (input.finds_later && p.name == "delay of " + input.channel) input.later = p.value;
     input.finds_later = false;
   }
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     PlantSensor& sensor = setup.sensors[s];
+    sensor.identified = identified(sensor.channel, sensor.noise);
     for (const FittedParameter& p : report.nuisances)
       if (sensor.finds_delay && p.name == "delay of " + sensor.channel) sensor.delay = p.value;
     sensor.finds_delay = false;

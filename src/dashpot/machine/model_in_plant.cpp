@@ -15,6 +15,7 @@
 #include "dashpot/identify/fit/passive_network_fit.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/beside_noise.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/observe.h"
@@ -246,6 +247,7 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
   // What came of it.
   InPlantReport report = std::move(best.report);
   report.along = law.model;
+  report.noise = law.report.noise;
   if (report.model) report.status = FitReport::Status::Converged;
   report.iterations = iterations;
   report.steps = cases.steps;
@@ -282,6 +284,7 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   const auto fit_law = [&](const std::string& law, bool was_asked_for) {
     fits.push_back(
         {law, identify_in_plant(find_law(law), setup, recordings, options), was_asked_for});
+    fits.back().report.noise = found_noise(setup, fits.back().report);
   };
   for (const std::string& model : models) require_model_for_plant(model, setup, "models");
 

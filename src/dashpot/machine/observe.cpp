@@ -425,10 +425,10 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
     report.warnings.push_back(
-        "the plant states no sensor's noise: it was found beside the law's own error, each may "
-        "pass "
-        "for the other, and bands of the force may hold far less than they say; state what "
-        "'identify --in' found, as 'noise: 0.05' at a sensor");
+        "neither plant nor model says what any sensor's noise is: it was found beside the law's "
+        "own "
+        "error, each may pass for the other, and bands of the force may hold far less than they "
+        "say; state it, as 'noise: 0.05' at a sensor, or take the files of an 'identify --in'");
   report.seconds = cpu_seconds() - started;
   return report;
 }
@@ -451,7 +451,8 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
   for (const PlantSensor& sensor : setup.sensors) {
     if (!(sensor.noise > 0))
       throw Error("plant, " + sensor.channel, "says nothing of its noise",
-                  "noise: what 'dashpot observe' prints of this sensor");
+                  "noise: what 'dashpot observe' prints of this sensor, or a model whose "
+                  "'identify --in' found it");
     if (std::abs(sensor.delay) > kLate * sample_time)
       throw Error("plant, " + sensor.channel,
                   "is " + format_number(1000 * sensor.delay, 3) +

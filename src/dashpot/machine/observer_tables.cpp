@@ -80,9 +80,10 @@ std::vector<double> response_to(const StepMatrices& m, std::size_t p, std::size_
 }
 
 /// What each sensor shows, as rows over the plant's state, inputs, their rates, roads and the
-/// forces.
+/// forces. `input_variance`: of what the inputs' sensors show beyond these.
 void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const ObserverNoise& noise,
-                 double road_rate_variance, ObserverTables& t) {
+                 double road_rate_variance, std::span<const double> input_variance,
+                 ObserverTables& t) {
   const std::size_t n = plant.size(), p = 2 * n, inputs = static_cast<std::size_t>(t.inputs),
                     roads = static_cast<std::size_t>(t.roads), sensors = setup.sensors.size(),
                     dampers = plant.dampers().size();
@@ -134,6 +135,16 @@ void add_sensors(const DrivenPlant& plant, const InPlantSetup& setup, const Obse
       case PlantQuantity::DamperForce:
         t.sensor_force[s * dampers + strut] = 1;
         break;
+    }
+
+    // What the sensors of inputs show beyond these, this sensor does not: value and rate of a
+    // sample's noise.
+    const double rate = 1 / (t.step * t.steps);
+    for (std::size_t u = 0; u < inputs; ++u) {
+      const double by_value = t.sensor_input[s * inputs + u],
+                   by_rate = t.sensor_slope[s * inputs + u] * rate;
+      t.sensor_variance.back() +=
+          (std::pow(by_value + by_rate, 2) + by_rate * by_rate) * input_variance[u];
     }
   }
 }
@@ -262,8 +273,11 @@ ObserverTables observer_tables(const InPlantSetup& setup,
       add(response(inputs.size() + d, 0, 1), error + d * noise.force.size() + e,
           deviation * deviation * -std::expm1(-2 * sample_time / memory));
     }
-  for (std::size_t u = 0; u < measured; ++u)
-    if (inputs[u].noise > 0) add(response(u, 1, 1), moving, inputs[u].noise * inputs[u].noise);
+  std::vector<double> input_variance;
+  for (std::size_t u = 0; u < measured; ++u) {
+    input_variance.push_back(inputs[u].noise * inputs[u].noise);
+    if (inputs[u].noise > 0) add(response(u, 1, 1), moving, input_variance.back());
+  }
 
   // The steps of differences, and a trace of uncertainty so that nothing counts as exact.
   constexpr double kDifference = 1e-3, kTrace = 1e-4;
@@ -277,7 +291,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   t.speed = kDifference * scale.speed;
   for (std::size_t k = 0; k < moving; ++k)
     t.process[k * moving + k] += std::pow(kTrace / kDifference * t.difference[k], 2);
-  add_sensors(equations, setup, noise, road_rate_variance, t);
+  add_sensors(equations, setup, noise, road_rate_variance, input_variance, t);
 
   // The start: at rest, or anywhere.
   constexpr double kAnywhere = 1;

@@ -1,6 +1,7 @@
 #include "dashpot/machine/watched.h"
 
 #include "dashpot/base/text.h"
+#include "dashpot/machine/found_noise.h"
 
 namespace dashpot {
 namespace {
@@ -70,6 +71,7 @@ Value to_json(const Watched& watched) {
   }
   for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
   return Value::object({{"plant", watched.plant.setup.model->name},
+                        {"noise", identified_noise_words(watched.plant.setup)},
                         {"damper", watched.plant.damper->name()},
                         {"alarm", watched.first_alarm() != nullptr},
                         {"days_between_false_alarms", watched.options.chart.days},
