@@ -1,6 +1,7 @@
 #include "dashpot/identify/rank/paired_ratio.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "dashpot/base/random.h"
 #include "support.h"
@@ -114,11 +115,17 @@ TEST_CASE("what units add to the error: folds, else records, else stretches of f
   first.records = {result_with(1, 100), result_with(4, 100)};
   second.records = {result_with(9, 200)};
 
-  // Over all 400 samples of +-10 N, ESR = 100 (100 * 1 + 100 * 4 + 200 * 9) / 40000 = 5.75.
-  const std::vector<double> by_fold = esr_parts(std::vector{first, second});
-  REQUIRE(by_fold.size() == 2);
-  CHECK_CLOSE(by_fold[0], 1.25, 1e-12, 0);
-  CHECK_CLOSE(by_fold[1], 4.5, 1e-12, 0);
+  // Over all 800 samples of +-10 N, ESR = 200 (100 * 1 + 100 * 4 + 200 * 9) / 80000 = 5.75.
+  const std::vector<double> by_fold = esr_parts(std::vector{first, second, second, first});
+  REQUIRE(by_fold.size() == 4);
+  CHECK_CLOSE(by_fold[0], 1.25 / 2, 1e-12, 0);
+  CHECK_CLOSE(by_fold[1], 4.5 / 2, 1e-12, 0);
+
+  // Two folds tell nothing by themselves: three stretches of each record of one, five of the other.
+  const std::vector<double> by_both = esr_parts(std::vector{first, second});
+  REQUIRE(by_both.size() == 11);
+  CHECK_CLOSE(std::accumulate(by_both.begin(), by_both.end(), 0.0), 5.75, 1e-12, 0);
+  CHECK_CLOSE(by_both[10], 4.5 / 5, 1e-12, 0);
   const std::vector<double> by_stretch = esr_parts(std::vector{second});
   REQUIRE(by_stretch.size() == 5);
   for (const double part : by_stretch) CHECK_CLOSE(part, 9.0 / 5, 1e-12, 0);

@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-12;
 
 std::vector<ErrorSums> by_unit(std::span<const Evaluation> folds) {
   std::vector<ErrorSums> sums;
-  if (folds.size() > 1) {
+  if (folds.size() >= kFewestDivisions) {
     for (const Evaluation& fold : folds) {
       sums.emplace_back();
       for (const RecordResult& record : fold.records) sums.back().add(record.sums);
@@ -24,11 +24,12 @@ std::vector<ErrorSums> by_unit(std::span<const Evaluation> folds) {
     return sums;
   }
 
-  for (const LeftOutPart& part : left_out_parts(folds.front().records)) {
-    sums.emplace_back();
-    for (std::size_t k = part.first; k < part.last; ++k)
-      sums.back().add(part.record->measured[k], part.record->modelled[k]);
-  }
+  for (const Evaluation& fold : folds)
+    for (const LeftOutPart& part : left_out_parts(fold.records)) {
+      sums.emplace_back();
+      for (std::size_t k = part.first; k < part.last; ++k)
+        sums.back().add(part.record->measured[k], part.record->modelled[k]);
+    }
   return sums;
 }
 

@@ -23,8 +23,13 @@ namespace dashpot {
 
 inline constexpr double kPairedLevel = 0.9;  ///< that an interval claims
 
+/// Fewer divisions tell nothing by Student's t, of which two need 6.3 deviations: then the records
+/// within them are the units, though those of a division share a fit.
+inline constexpr std::size_t kFewestDivisions = 4;
+
 /// What each unit adds to the pooled ESR, %; the parts add up to it. Units are the folds, where
-/// there are several; else the stretches of the left-out records. Empty where a record diverged.
+/// there are enough; else the left-out records or stretches of them (left_out_parts()). Empty where
+/// a record diverged.
 std::vector<double> esr_parts(std::span<const Evaluation> folds);
 
 /// From the parts of both models, unit by unit. Nothing with fewer than two units.

@@ -98,8 +98,11 @@ double expected_cost(const std::string& model, const Record& record, DriveUnit d
 
 /// What models are compared over.
 std::string unit_of(const LeaveOut& leave_out, const std::vector<Fold>& folds) {
-  if (folds.size() > 1) return leave_out.by == LeaveOut::By::Blocks ? "block" : "division";
-  return folds.front().left_out.size() < kLeastUnits ? "stretch of time" : "record";
+  if (folds.size() >= kFewestDivisions)
+    return leave_out.by == LeaveOut::By::Blocks ? "block" : "division";
+  const bool are_cut = std::ranges::any_of(
+      folds, [](const Fold& fold) { return fold.left_out.size() < kLeastUnits; });
+  return are_cut ? "stretch of time" : "record";
 }
 
 /// A block of a record becomes a result of its own: "run 1, 4 to 8 s".
