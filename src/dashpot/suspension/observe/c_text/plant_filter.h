@@ -140,7 +140,7 @@ static inline void filter_slopes(const PlantFilter* f, const double* before, con
                                  double* slopes) {
   int k;
   for (k = 0; k <= f->inputs; ++k) {
-    slopes[k] = (now[k] - before[k]) / (f->step * f->steps);
+    slopes[k] = (now[k] - before[k]) / (f->step * (double)f->steps);
   }
 }
 
@@ -392,7 +392,7 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
   for (step = 1; step <= f->steps; ++step) {
     for (k = 0; k <= f->inputs; ++k) {
       from[k] = to[k];
-      to[k] = before[k] + (slopes[k] * f->step * step);
+      to[k] = before[k] + (slopes[k] * f->step * (double)step);
     }
     for (d = 0; d < f->dampers; ++d) {
       filter_input(f, d, from, slopes, s, &over[d].first);
