@@ -95,5 +95,5 @@ TEST_CASE(
   CHECK(contains(run_dashpot("models my_law.txt").output,
                  "is neither a model nor the file of a law; such a file's name ends in .yaml"));
   CHECK(contains(run_dashpot("models " + project_file("data/datasets/utfsm.yaml")).output,
-                 "the file of a law needs 'law'"));
+                 "is a dataset file, not the file of a law; docs/laws-from-a-file.md"));
 }
