@@ -19,6 +19,14 @@
 
 using namespace dashpot;
 
+namespace {
+
+std::ptrdiff_t threads_now() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+}
+
+}  // namespace
+
 TEST_CASE("every task runs once, on any number of threads") {
   for (const int threads : {0, 1, 3, 16}) {
     std::vector<int> slots(1000, 0);
@@ -58,9 +66,6 @@ TEST_CASE("nested farms use no more threads than the outermost asked for, and it
 }
 
 TEST_CASE("threads live on: a thousand farms start none") {
-  const auto threads_now = [] {
-    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
-  };
   parallel_for(8, 4, [](std::size_t) {});
   const auto before = threads_now();
   std::set<std::thread::id> seen;
@@ -86,6 +91,13 @@ TEST_CASE("a child that was forked works without the threads of its parent") {
   waitpid(child, &status, 0);
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 0);
+}
+
+TEST_CASE("a million threads are as many as a machine can bear") {
+  std::atomic<int> count = 0;
+  parallel_for(1000, 1000000, [&](std::size_t) { ++count; });
+  CHECK(count == 1000);
+  CHECK(threads_now() <= 600);
 }
 
 TEST_CASE("the exception of the lowest index comes out") {

@@ -144,11 +144,14 @@ class Pool {
     left_.wait(lock, [&] { return farm.helpers == 0; });
   }
 
-  /// Starts threads where fewer live than farms of different callers ask for together.
+  /// Starts threads where fewer live than farms of different callers ask for together; never so
+  /// many that other programs of the machine could start none.
   void need(std::size_t helpers) {
+    constexpr std::size_t kMostThreads = 512;
     needed_ += helpers;
     try {
-      while (threads_.size() < needed_) threads_.emplace_back([this] { help(); });
+      while (threads_.size() < std::min(needed_, kMostThreads))
+        threads_.emplace_back([this] { help(); });
     } catch (const std::exception&) {
       // The machine gives no more threads; those that there are do all of the work.
     }
