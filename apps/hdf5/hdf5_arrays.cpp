@@ -45,6 +45,7 @@ std::string text_attribute(hid_t object, const char* name) {
 std::string hand_over_dataset(hid_t dataset, StoredArray& about, StoredWriter& to) {
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  if (kind == H5T_COMPOUND) return "it is a table in one dataset, which is not read";
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) return "it holds no plain numbers";
   const int rank = space < 0 ? -1 : H5Sget_simple_extent_ndims(space);
   if (rank < 0 || rank > 2) return "it has " + std::to_string(rank) + " dimensions";

@@ -64,6 +64,26 @@ bool is_numeric(const matvar_t& variable) {
          !variable.isComplex;
 }
 
+/// Why a variable of its class is no array of numbers; "" where it is one.
+std::string unread_class(const matvar_t& variable) {
+  switch (variable.class_type) {
+    case MAT_C_STRUCT:
+      return "an array of structures; save the fields of each in a file of its own";
+    case MAT_C_CELL:
+      return "a cell array; save what each cell holds in a file of its own";
+    case MAT_C_CHAR:
+      return "a text";
+    case MAT_C_EMPTY:
+    case MAT_C_OBJECT:
+    case MAT_C_FUNCTION:
+    case MAT_C_OPAQUE:
+      return "an object (datetime, duration, table ...), which MATLAB alone reads; save its "
+             "numbers, as seconds(t - t(1))";
+    default:
+      return is_numeric(variable) ? "" : "not a real number array";
+  }
+}
+
 /// Goes through variables, into structures of one element too; names what it passes over.
 class MatWalk {
  public:
@@ -71,14 +91,15 @@ class MatWalk {
       : file_(file), path_(std::move(path)), to_(to) {}
 
   void visit(matvar_t& variable, const std::string& name, int depth) {
-    if (variable.rank != 2 || depth > kDeepestVariable)
-      return pass_over(name, "not two-dimensional");
-
     // Go into structures of one element; pass over what is no matrix of real numbers.
-    const std::size_t rows = variable.dims[0], columns = variable.dims[1];
-    if (variable.class_type == MAT_C_STRUCT && rows == 1 && columns == 1)
+    const bool is_flat = variable.rank == 2;
+    if (variable.class_type == MAT_C_STRUCT && is_flat && variable.dims[0] == 1 &&
+        variable.dims[1] == 1 && depth <= kDeepestVariable)
       return visit_fields(variable, name, depth);
-    if (!is_numeric(variable)) return pass_over(name, "not a real number array");
+    if (depth > kDeepestVariable) return pass_over(name, "too deep in structures");
+    if (const std::string why = unread_class(variable); !why.empty()) return pass_over(name, why);
+    if (!is_flat) return pass_over(name, "not two-dimensional");
+    const std::size_t rows = variable.dims[0], columns = variable.dims[1];
     if (rows == 0 || columns == 0) return pass_over(name, "empty");
 
     if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
@@ -96,7 +117,8 @@ class MatWalk {
         visit(*field, name + "." + fields[k], depth + 1);
   }
   void pass_over(const std::string& name, const std::string& why) {
-    to_.note({"", "variable '" + name + "' passed over: " + why});
+    const std::string what = name.empty() ? "a variable" : "variable '" + name + "'";
+    to_.note({"", what + " passed over: " + why});
   }
   [[noreturn]] void fail(const std::string& name) const {
     throw Error(path_, "variable '" + name + "' cannot be read",

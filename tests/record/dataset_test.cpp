@@ -7,6 +7,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/record/dataset_file.h"
+#include "dashpot/record/mat_bytes.h"
 #include "dashpot/split.h"
 #include "support.h"
 
@@ -34,6 +35,20 @@ std::string message_for(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   const auto path = folder.write(name, text);
   return message_of([&] { load(path); });
+}
+
+/// The same sine as a MAT file, which a single number `name` stands beside.
+std::string sine_mat(const std::vector<std::pair<std::string, double>>& numbers) {
+  MatVariable x{.name = "x_mm", .rows = 300, .columns = 1}, force{.name = "F_N", .rows = 1};
+  for (int k = 0; k < 300; ++k) {
+    x.values.push_back(10 * std::sin(0.02 * M_PI * k));
+    force.values.push_back(20 * M_PI * std::cos(0.02 * M_PI * k));
+  }
+  force.columns = force.values.size();
+  std::vector<MatVariable> all{x, force};
+  for (const auto& [name, value] : numbers)
+    all.push_back({.name = name, .rows = 1, .columns = 1, .values = {value}});
+  return mat_bytes(all);
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -620,4 +635,27 @@ TEST_CASE("two columns that could be time: what the message proposes works") {
             "'time: {column: \"time [s]\"}'"));
   folder.write("dataset.yaml", "files:\n  - match: run_1A.csv\n    time: {column: \"time [s]\"}\n");
   CHECK(load(folder.path()).records.at(0).sample_time == 0.01);
+}
+
+TEST_CASE("a current that is a single number of a MAT file is the level of its record") {
+  const TemporaryFolder folder;
+  const auto record_of = [&](const std::string& name, double value, const char* file = "run.mat") {
+    return load(folder.write(file, sine_mat({{"fs", 100}, {name, value}}))).records.at(0);
+  };
+  CHECK(*record_of("current_A", 0.5).drive_level == 0.5);
+  CHECK(*record_of("Strom_mA", 750).drive_level == 0.75);
+  CHECK(record_of("voltage_V", 2).find("voltage"));
+
+  // It goes before a name, and says so.
+  const Record other = record_of("current_A", 0.5, "run_1A.mat");
+  CHECK(*other.drive_level == 0.5);
+  CHECK(std::ranges::any_of(other.notes, [](const std::string& note) {
+    return has(note, "the single number 'current_A' counts, 0.5 A, not the file name");
+  }));
+
+  // One letter may be any number of a workspace, and two numbers leave a doubt.
+  CHECK(*record_of("I", 7).drive_level == 0);
+  const auto two = folder.write("two.mat", sine_mat({{"fs", 100}, {"i_A", 1}, {"current_A", 2}}));
+  CHECK(has(message_of([&] { load(two); }),
+            "the single number 'i_A' and the single number 'current_A' may be it"));
 }

@@ -7,7 +7,9 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
 #include "dashpot/error.h"
+#include "dashpot/record/channel_names.h"
 #include "dashpot/record/differentiate.h"
 #include "dashpot/record/inertia.h"
 #include "dashpot/record/integrate.h"
@@ -28,8 +30,8 @@ const ColumnUse* find_use(const ColumnUses& uses, std::string_view channel) {
 }
 
 /// Empty when the table is a recording of a damper, that is when it has a motion and a force; else
-/// why not, and what to state in a dataset file.
-std::string refusal(const RawTable& table, const ColumnUses& uses) {
+/// why not, and what to state in a dataset file, which arrays (`as_given`) do not have.
+std::string refusal(const RawTable& table, const ColumnUses& uses, bool as_given) {
   constexpr std::size_t kToldColumns = 3;
   const bool motion = find_use(uses, "displacement") || find_use(uses, "velocity");
   const bool force = find_use(uses, "force");
@@ -51,10 +53,12 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
   const std::string missing = !motion && !force ? "displacement (or velocity) and force"
                               : motion          ? "force"
                                                 : "displacement (or velocity)";
-  const std::string how = table.named() ? "state in a dataset file which column it is: 'channels: "
-                                          "{force: {column: NAME, unit: N}}'"
-                                        : "no line names the columns: state them by number in a "
-                                          "dataset file: 'channels: {force: {column: 2, unit: N}}'";
+  const std::string how = as_given ? "names tell channel and unit: 'force [N]', 'x [mm]'"
+                          : table.named()
+                              ? "state in a dataset file which column it is: 'channels: "
+                                "{force: {column: NAME, unit: N}}'"
+                              : "no line names the columns: state them by number in a "
+                                "dataset file: 'channels: {force: {column: 2, unit: N}}'";
   // Familiar names that were refused tell more than the list of all names.
   std::string refused;
   std::size_t told = 0;
@@ -65,25 +69,32 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
          "); " + how;
 }
 
-void require_numbers(const RawTable& table, const ColumnUse& use) {
+void require_numbers(const RawTable& table, const ColumnUse& use, bool as_given) {
   const RawColumn& column = table.columns[use.column];
   if (!column.bad) return;
   const std::string what = use.channel + " (" + label(column, use.column) + ") is ";
   throw Error(table.where(column.bad->row),
               what + (column.bad->text.empty() ? "empty"
                                                : "'" + column.bad->text + "', not a finite number"),
-              "write it as 12.5, or leave the row out ('on_bad_row: drop' in a dataset file)");
+              as_given ? "leave that sample out"
+                       : "write it as 12.5, or leave the row out ('on_bad_row: drop' in a dataset "
+                         "file)");
+}
+
+/// "Ts" of "test.Ts": what stands in a structure is known by its own name.
+std::string_view last_part(std::string_view name) {
+  return name.substr(name.rfind('.') + 1);  // npos + 1 is 0
 }
 
 /// Sample time in s from a single number beside the columns whose name says that it is a sample
 /// time or a rate; `basis` says which.
 std::optional<double> sample_time_of_scalars(const RawTable& table, std::string& basis) {
   for (const auto& [name, value] : table.scalars) {
-    const std::string word = lower(name);
+    const std::string word = lower(last_part(name));
     const bool step = word == "ts" || word == "dt" || word == "sample_time" || word == "sampletime";
     const bool rate = word == "fs" || word == "sample_rate" || word == "samplerate";
     if ((!step && !rate) || !(value > 0) || !std::isfinite(value)) continue;
-    basis = "row times " + name;
+    basis = (step ? "row times " : "row divided by ") + name;
     return step ? value : 1 / value;
   }
   return std::nullopt;
@@ -107,9 +118,9 @@ void require_plausible_step(const std::vector<double>& stamps, const RawTable& t
 /// Takes the time column or makes the time stamps. Returns in words how time was understood. A
 /// stated sample time goes before a time column, a time column before the file's own interval.
 std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
-                     const FileStatement& statement) {
+                     const BuildContext& context) {
   std::string basis = "stated";
-  std::optional<double> step = statement.sample_time;
+  std::optional<double> step = context.statement->sample_time;
 
   // A time column: keep its stamps where they are not uniform, else put them on the uniform grid
   // that its printed digits round.
@@ -128,9 +139,10 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
   if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
   if (!step) step = sample_time_of_scalars(table, basis);
   if (!step)
-    throw Error(
-        table.file, "no column is time by its name (it has " + table.column_list() + ")",
-        "state in a dataset file 'time: {sample_rate: 1000}' or 'time: {column: NAME, unit: s}'");
+    throw Error(table.file, "no column is time by its name (it has " + table.column_list() + ")",
+                context.as_given ? "give a sample_time in s, or name a column 'time [s]'"
+                                 : "state in a dataset file 'time: {sample_rate: 1000}' or 'time: "
+                                   "{column: NAME, unit: s}'");
 
   record.sample_time = *step;
   record.time.resize(table.rows());
@@ -594,7 +606,7 @@ std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& 
 /// columns.
 void take_table(BuiltRecord& built, RawTable& table, const ColumnUses& uses,
                 const BuildContext& context) {
-  for (const ColumnUse& use : uses.used) require_numbers(table, use);
+  for (const ColumnUse& use : uses.used) require_numbers(table, use, context.as_given);
   if (table.rows() < 2)
     throw Error(
         table.file,
@@ -611,7 +623,7 @@ void take_table(BuiltRecord& built, RawTable& table, const ColumnUses& uses,
   record.notes = table.notes;
 
   // Time and channels, which take over the columns' memory; unused columns give theirs back.
-  built.readings = readings_of(table, uses, set_time(record, table, uses, *context.statement));
+  built.readings = readings_of(table, uses, set_time(record, table, uses, context));
   for (const auto& [column, why] : uses.unused)
     std::vector<double>().swap(table.columns[column].values);
   take_channels(record, table, uses);
@@ -623,6 +635,29 @@ void take_table(BuiltRecord& built, RawTable& table, const ColumnUses& uses,
 
 }  // namespace
 
+std::optional<KnownLevel> level_of_scalars(const RawTable& table) {
+  std::optional<KnownLevel> found;
+  for (const auto& [name, value] : table.scalars) {
+    const NamedChannel named = recognise_channel(name, "");
+    const bool is_drive = named.channel == "current" || named.channel == "voltage";
+    const bool is_clear = !named.unit.empty() || last_part(name).size() > 1;
+    if (!is_drive || !is_clear || !named.problem.empty() || !std::isfinite(value)) continue;
+
+    const Unit unit = named.unit.empty() ? Unit{} : require_unit(named.unit, table.file);
+    const KnownLevel level{.value = unit.factor * value + unit.offset,
+                           .unit = named.channel == "current" ? DriveUnit::Ampere : DriveUnit::Volt,
+                           .basis = "single number '" + name + "'",
+                           .of_name = true,
+                           .doubt = {},
+                           .note = {}};
+    if (!found)
+      found = level;
+    else if (found->value != level.value || found->unit != level.unit)
+      found->doubt = "the " + found->basis + " and the " + level.basis + " may be it";
+  }
+  return found;
+}
+
 std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
                                        std::span<const BuildContext> contexts) {
   // Understand the columns, and refuse what is no recording before looking at its numbers.
@@ -630,7 +665,7 @@ std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
   const BuildContext& shared = contexts.front();
   const ColumnUses uses =
       understand_columns(stretches.front(), *shared.statement, shared.stated_in);
-  all.front().refusal = refusal(stretches.front(), uses);
+  all.front().refusal = refusal(stretches.front(), uses, shared.as_given);
   if (!all.front().refusal.empty()) return all;
 
   // What each stretch holds by itself.

@@ -33,6 +33,11 @@ struct BuildContext {
   bool as_given = false;
 };
 
+/// The level of a drive that stands as a single number beside the columns, as 'current_A' of a MAT
+/// file; in doubt where two such numbers differ. A name of one letter without a unit is none: it is
+/// too often another thing.
+std::optional<KnownLevel> level_of_scalars(const RawTable& table);
+
 struct BuiltRecord {
   Record record;
   std::vector<ColumnReading> readings;

@@ -164,7 +164,8 @@ std::string pattern_of(const std::string& note) {
 struct SharedNote {
   std::string pattern, text;
   std::vector<std::string> subjects;
-  bool differs = false;  ///< in its numbers
+  bool differs = false;   ///< in its numbers
+  std::size_t count = 1;  ///< how many notes these are
 };
 
 void add_note(std::vector<SharedNote>& notes, const std::string& text, const std::string& subject) {
@@ -173,6 +174,7 @@ void add_note(std::vector<SharedNote>& notes, const std::string& text, const std
                                [&](const SharedNote& n) { return n.pattern == pattern; });
   if (at == notes.end()) return notes.push_back({pattern, text, {subject}, false});
   at->differs = at->differs || at->text != text;
+  ++at->count;
   if (at->subjects.back() != subject) at->subjects.push_back(subject);
 }
 
@@ -181,8 +183,10 @@ std::string format_note(const SharedNote& note, std::string_view plural) {
   if (note.subjects.size() > 1)
     subject = std::to_string(note.subjects.size()) + " " + std::string(plural) + " (" + subject +
               ", " + note.subjects[1] + (note.subjects.size() > 2 ? " ...)" : ")");
-  return (subject.empty() ? "" : subject + ": ") + note.text +
-         (note.differs ? ", and likewise" : "");
+  const std::string others = note.subjects.size() > 1
+                                 ? ", and likewise"
+                                 : "; and " + std::to_string(note.count - 1) + " more like it";
+  return (subject.empty() ? "" : subject + ": ") + note.text + (note.differs ? others : "");
 }
 
 std::string note_list(const Dataset& dataset) {

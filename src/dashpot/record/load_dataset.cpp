@@ -239,7 +239,8 @@ class Loader {
                            !group.empty() ? first.part
                            : parts > 1    ? stem + ", " + part_name
                                           : stem,
-                           known_level(file, statement, listed, name), options_.velocity_cutoff_hz};
+                           known_level(file, statement, listed, name, first),
+                           options_.velocity_cutoff_hz};
       const auto words = template_words(file, stem, part, group, context.level);
       if (!statement.name.empty())
         context.name = fill_template(statement.name, words, statement.where);
@@ -325,10 +326,12 @@ class Loader {
     return words;
   }
 
-  /// The drive level from beside the table, the surest source first: the statement, the manifest,
-  /// the file's name. A stated drive column makes all of them silent but the first.
+  /// The drive level from beside the columns, the surest source first: the statement, the manifest,
+  /// a single number of the file, its name. A stated drive column makes all of them silent but the
+  /// first.
   std::optional<KnownLevel> known_level(const SourcePath& file, const FileStatement& statement,
-                                        const Listed& listed, const NameParts& name) const {
+                                        const Listed& listed, const NameParts& name,
+                                        const RawTable& table) const {
     const DriveUnit unit = sources_.stated.drive_unit.value_or(DriveUnit::Ampere);
     if (const auto* level = std::get_if<double>(&statement.level))
       return KnownLevel{*level, unit, stated_in_};
@@ -360,6 +363,13 @@ class Loader {
     if (const auto column = manifest_.level_column(); column && manifest_.lists(file))
       return KnownLevel{manifest_.number(file, column->first), column->second,
                         "manifest.csv, " + column->first};
+
+    if (std::optional<KnownLevel> level = level_of_scalars(table)) {
+      if (level->doubt.empty() && name.level && name.level->value != level->value)
+        level->note = "the " + level->basis + " counts, " + format_number(level->value) + " " +
+                      to_string(level->unit) + ", not the " + name.level->basis;
+      return level;
+    }
 
     // The names: the file's and those of its folders, then that of the folder that was pointed at.
     std::optional<KnownLevel> level = name.level;

@@ -88,6 +88,31 @@ TEST_CASE("fields of a structure are columns") {
   }
 }
 
+TEST_CASE("a MAT file of cells and arrays of structures says what it holds") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "tests.mat";
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+  REQUIRE(file);
+  std::size_t size[] = {1, 2}, one[] = {1, 1};
+  const char* fields[] = {"force"};
+  double number = 1;
+  matvar_t* runs = Mat_VarCreateStruct("runs", 2, size, fields, 1);
+  for (std::size_t k = 0; k < 2; ++k)
+    Mat_VarSetStructFieldByName(
+        runs, "force", k, Mat_VarCreate("force", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, one, &number, 0));
+  matvar_t* cells[] = {Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, one, &number, 0),
+                       Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, one, &number, 0)};
+  matvar_t* cell = Mat_VarCreate("all", MAT_C_CELL, MAT_T_CELL, 2, size, cells, 0);
+  for (matvar_t* variable : {runs, cell}) {
+    Mat_VarWrite(file, variable, MAT_COMPRESSION_NONE);
+    Mat_VarFree(variable);
+  }
+  Mat_Close(file);
+  const std::string told = message_of([&] { read_mat(path); });
+  CHECK(told.find("variable 'runs' passed over: an array of structures") != std::string::npos);
+  CHECK(told.find("variable 'all' passed over: a cell array") != std::string::npos);
+}
+
 TEST_CASE("a cut MAT file is refused with its name, at every length") {
   const TemporaryFolder folder;
   for (const matio_compression compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {

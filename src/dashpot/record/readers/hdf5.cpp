@@ -47,9 +47,12 @@ std::vector<RawTable> hdf5_tables(StoredArrays all, const std::string& file) {
     table.part_index = tables.size();
     tables.push_back(std::move(table));
   }
-  if (tables.empty())
-    throw NoTable(file, "no group holds arrays of numbers",
+  if (tables.empty()) {
+    RawTable none;
+    none.notes = notes;
+    throw NoTable(file, "no group holds arrays of numbers" + none.passed_over(),
                   "a recording has one dataset per channel");
+  }
   if (tables.size() == 1) tables.front().part.clear();
   auto& first = tables.front().notes;
   first.insert(first.end(), notes.begin(), notes.end());

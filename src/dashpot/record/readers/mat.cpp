@@ -28,7 +28,8 @@ std::vector<RawTable> read_mat(const fs::path& path) {
 std::vector<RawTable> mat_tables(StoredArrays all, const std::string& file) {
   RawTable table = stored_table(file, std::move(all), words_of_variable);
   if (table.columns.empty())
-    throw NoTable(file, "holds no arrays of numbers", "a recording has one vector per channel");
+    throw NoTable(file, "holds no arrays of numbers" + table.passed_over(),
+                  "a recording has one vector per channel");
   std::vector<RawTable> tables;
   tables.push_back(std::move(table));
   return tables;

@@ -30,7 +30,16 @@ std::string RawTable::column_list() const {
   std::vector<std::string> names;
   for (const RawColumn& column : columns) names.push_back("'" + column.name + "'");
   if (names.size() > 24) names.resize(24), names.push_back("...");
-  return join(names, ", ");
+  return join(names, ", ") + passed_over();
+}
+
+std::string RawTable::passed_over() const {
+  constexpr std::size_t kTold = 3;
+  std::string told;
+  std::size_t count = 0;
+  for (const std::string& note : notes)
+    if (note.find(" passed over: ") != std::string::npos && count++ < kTold) told += "; " + note;
+  return count > kTold ? told + "; and " + std::to_string(count - kTold) + " more" : told;
 }
 
 }  // namespace dashpot

@@ -55,8 +55,10 @@ struct RawTable {
   std::string at_line(std::size_t line) const;  ///< "run3.csv:118"
   /// "run3.csv:118", or "run3.mat, row 117" where there are no lines.
   std::string where(std::size_t row) const;
-  /// "'t_s', 'x_mm'", or "3 columns without names".
+  /// "'t_s', 'x_mm'", or "3 columns without names", and what was passed over beside them.
   std::string column_list() const;
+  /// "; variable 'time' passed over: why; ...", the first of them; "" where nothing was.
+  std::string passed_over() const;
 };
 
 }  // namespace dashpot
