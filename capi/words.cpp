@@ -35,6 +35,11 @@ double whole(ObjectReader& reader, std::string_view key, double fallback, double
   return value;
 }
 
+void require_at_least_0(double value, std::string_view key, const char* right) {
+  if (!(value >= 0) || !std::isfinite(value))
+    throw Error("options, " + std::string(key), "is " + format_number(value), right);
+}
+
 int whole_int(ObjectReader& reader, std::string_view key, int fallback, int least = 0) {
   constexpr double kMost = 1e9;
   return static_cast<int>(std::min(whole(reader, key, fallback, least), kMost));
@@ -91,6 +96,8 @@ LoadOptions read_load_options(const char* text) {
   options.recognise = reader.boolean("recognise", options.recognise);
   options.velocity_cutoff_hz = reader.number("velocity_cutoff", 0);
   reader.finish();
+  require_at_least_0(options.velocity_cutoff_hz, "velocity_cutoff",
+                     "Hz, 0 (from the motion) or more");
   return options;
 }
 
@@ -144,6 +151,9 @@ ExportWords read_export_options(const char* text) {
   if (precision != "double" && precision != "float")
     throw Error("options, precision", "is '" + precision + "'", "double or float");
   if (precision == "float") options.precision = CPrecision::Single;
+  if (!(options.sample_time >= 0 && options.sample_time <= 1))
+    throw Error("options, sample_time", "is " + format_number(options.sample_time),
+                "s, above 0 and at most 1; 0: that of the model's data");
 
   // Defaults that depend on the machine and on this build.
   if (options.compiler.empty()) options.compiler = usual_compiler();
@@ -181,11 +191,11 @@ DriveOptions read_drive_options(const char* text) {
 
   reader.finish();
 
-  // Times are finite and not negative, or the simulation would have no end.
-  for (const auto& [name, seconds] :
-       {std::pair{"duration", out.duration}, {"output_step", out.output_step}})
-    if (!(seconds >= 0) || !std::isfinite(seconds))
-      throw Error(std::string("options, ") + name, "is " + format_number(seconds), "s, 0 or more");
+  // Times are finite and not negative, or the simulation would have no end; nor is a current.
+  require_at_least_0(out.duration, "duration", "s, 0 or more");
+  require_at_least_0(out.output_step, "output_step", "s, 0 or more");
+  require_at_least_0(words.current, "current", "A or V, 0 or more");
+  require_at_least_0(words.current_max, "current_max", "A or V, 0 (the model's) or more");
   return out;
 }
 

@@ -62,7 +62,9 @@ TEST_CASE("an export that cannot be says why, and writes nothing") {
                  "no-such-compiler"));
   CHECK(contains(refusal(R"("to": ["c"], "precision": "half")"), "double or float"));
   CHECK(contains(refusal(R"("to": ["c"], "name": "2fast")"), "2fast"));
-  CHECK(contains(refusal(R"("to": ["c"], "sample_time": -1)"), "sample time"));
+  for (const char* time : {"-1", "5"})
+    CHECK(contains(refusal((R"("to": ["c"], "sample_time": )" + std::string(time)).c_str()),
+                   "sample_time: is " + std::string(time) + "; s, above 0 and at most 1"));
   CHECK(contains(refusal(R"("to": ["c"], "step": 1)"), "unknown key 'step'"));
   CHECK(!std::filesystem::exists(into));
   CHECK(contains(

@@ -181,6 +181,7 @@ TEST_CASE("recordings that cannot serve are refused, and nothing is added") {
   CHECK(contains(refusal(), "sample_time"));
   table.sample_time = 0;
   CHECK(contains(refusal(), "no column is time"));
+  CHECK(contains(refusal(), "; give a sample_time in s, or name a column 'time [s]'"));
   table.sample_time = 0.005;
   table.conditions = "{\"gap\": \"wide\"}";
   CHECK(contains(refusal(), "conditions"));
@@ -189,7 +190,7 @@ TEST_CASE("recordings that cannot serve are refused, and nothing is added") {
   CHECK(contains(refusal(), "no column is force"));
   table.column_count = 3;
   motion.f[5] = std::nan("");
-  CHECK(contains(refusal(), "one, row 6: force (F) is 'nan'"));
+  CHECK(contains(refusal(), "one, row 6: force (F) is 'nan', not a finite number; leave that"));
   motion.f[5] = 0;
   columns[1].column.data = nullptr;
   CHECK(contains(refusal(), "F: is null"));
@@ -324,4 +325,13 @@ TEST_CASE("errors are each thread's own") {
   std::thread([&] { other = dashpot_last_error(); }).join();
   CHECK(other.empty());
   CHECK(contains(dashpot_last_error(), "nobody"));
+}
+
+TEST_CASE("a cut-off of a negative frequency is refused") {
+  const char* path = "anywhere";
+  dashpot_recordings* recordings = nullptr;
+  CHECK(contains(
+      message_of(DASHPOT_BAD_INPUT,
+                 dashpot_recordings_load(&path, 1, R"({"velocity_cutoff": -5})", &recordings)),
+      "velocity_cutoff: is -5; Hz, 0 (from the motion) or more"));
 }

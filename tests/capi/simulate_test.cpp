@@ -36,6 +36,9 @@ TEST_CASE("words that nothing is known by are refused") {
   CHECK(contains(refusal(R"({"road": "gravel"})"), "gravel"));
   CHECK(contains(refusal(R"({"controller": "sh3"})"), "sh3"));
   CHECK(contains(refusal(R"({"duration": -1})"), "duration"));
+  for (const char* current : {"current", "current_max"})
+    CHECK(contains(refusal(("{\"" + std::string(current) + "\": -1}").c_str()),
+                   current + std::string(": is -1; A or V, 0")));
   CHECK(contains(refusal(R"({"speed": 1})"), "unknown key 'speed'"));
   CHECK(contains(refusal("nonsense"), "options"));
   CHECK(dashpot_simulate(nullptr, nullptr, nullptr, nullptr) == DASHPOT_BAD_INPUT);
