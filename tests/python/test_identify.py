@@ -59,6 +59,27 @@ class RecordingsInMemory(unittest.TestCase):
         with self.assertRaises(ValueError):
             view[0] = 1
 
+    def test_numpy_numbers_are_options(self):
+        t, x, v, i, force = bingham(0.5)
+        table = {"t_s": t, "v [m/s]": v, "i [A]": i, "F_N": force}
+        dashpot.Recordings().add(table, conditions={"gap": np.float32(1e-3)})
+        self.assertEqual(len(dashpot.identify(bench(), "bingham", seed=np.int64(3))), 1)
+
+    def test_what_is_no_table_says_what_would_be_right(self):
+        t, x, v, i, force = bingham(0.5)
+        table = {"t_s": t, "v [m/s]": v, "i [A]": i, "F_N": force}
+        with self.assertRaisesRegex(TypeError, r"one table is no path: Recordings\(\).add\(table\)"):
+            dashpot.identify(table, "bingham")
+        with self.assertRaisesRegex(dashpot.Error, "no name tells a channel .there are left, right"):
+            dashpot.Recordings().add({"left": t, "right": x})
+        with self.assertRaisesRegex(TypeError, "table is a ndarray; a DataFrame, or a dict of arrays"):
+            dashpot.Recordings().add(np.column_stack([t, x]))
+        with self.assertRaisesRegex(TypeError, "sample_time is no number: '5ms'"):
+            dashpot.Recordings().add(table, sample_time="5ms")
+        dates = np.datetime64("2024-01-01") + (1000 * t).astype("timedelta64[ms]")
+        with self.assertRaisesRegex(TypeError, "t_s holds datetime64.*; seconds as numbers"):
+            dashpot.Recordings().add({**table, "t_s": dates})
+
     def test_wrong_tables_are_refused(self):
         t, x, v, i, force = bingham(0.0)
         for table in ({"F": force}, {}, {"t": t, "x": x, "F": force[:-1], "i": i}):
@@ -247,6 +268,14 @@ class Frames(unittest.TestCase):
         self.assertGreater(identifier.score(self.frame, force), 1 - 1e-12)
         recordings = dashpot.Recordings().add(self.frame.assign(F_N=self.force))
         self.assertIn("velocity [m/s]", recordings.frame(0).columns)
+
+    def test_nullable_columns_are_numbers_and_others_are_named(self):
+        model = dashpot.published("vrths_mr_bingham")
+        nullable = self.frame.drop(columns="operator").convert_dtypes()
+        self.assertNotIsInstance(nullable["current [A]"].dtype, np.dtype)
+        np.testing.assert_array_equal(model.predict(nullable), model.predict(self.frame))
+        with self.assertRaisesRegex(TypeError, "column 'x_mm' holds object, not real numbers"):
+            model.predict(self.frame.assign(x_mm=self.frame["x_mm"].astype(str)))
 
     def test_columns_that_are_missing_are_named(self):
         model = dashpot.published("spencer1997_bouc_wen")

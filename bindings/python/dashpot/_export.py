@@ -5,6 +5,7 @@ import os
 from typing import List, Union
 
 from . import _core
+from ._arrays import as_json
 from ._identify import Words, words
 
 
@@ -30,4 +31,4 @@ def export(
         "sources_only": sources_only,
         "command": "DamperModel.export (Python)",
     }
-    return json.loads(_core.export(model, json.dumps(options)))["files"]
+    return json.loads(_core.export(model, as_json(options)))["files"]

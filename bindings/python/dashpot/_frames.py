@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import _core
+from ._arrays import as_float64
 
 
 def is_frame(table) -> bool:
@@ -20,6 +21,8 @@ def columns(frame) -> dict:
         if channel in found:
             raise _core.Error(f"column {name!r}: another one is {channel} already; drop one of them")
         samples = np.asarray(frame[name])
+        if samples.dtype != np.float64:
+            samples = as_float64(frame[name], f"column {name!r}")
         found[channel] = samples if (factor, shift) == (1.0, 0.0) else samples * factor + shift
     return found
 

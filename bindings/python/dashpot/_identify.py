@@ -4,6 +4,7 @@ import json
 from typing import Callable, Iterable, Optional, Union
 
 from . import _core
+from ._arrays import as_json
 from ._recordings import Paths, Recordings, as_recordings
 
 Words = Union[str, Iterable[str]]
@@ -140,7 +141,7 @@ def identify(
         asked["keep_inertia"] = True
     if budget is not None:
         asked["budget"] = budget
-    return Ranking(_core.identify(data._core, json.dumps(asked), progress))
+    return Ranking(_core.identify(data._core, as_json(asked), progress))
 
 
 def evaluate(
@@ -148,4 +149,4 @@ def evaluate(
 ) -> dict:
     """What stands behind DamperModel.evaluate()."""
     options = {"force_offset": force_offset, "threads": threads, "keep_inertia": bool(keep_inertia)}
-    return json.loads(_core.evaluate(model, as_recordings(recordings)._core, json.dumps(options)))
+    return json.loads(_core.evaluate(model, as_recordings(recordings)._core, as_json(options)))

@@ -6,6 +6,7 @@ import json
 import numpy as np
 
 from . import _core, _frames
+from ._arrays import as_json
 from ._identify import fit_options
 from ._recordings import Recordings
 
@@ -30,6 +31,8 @@ def score(model, X, y, sample_time=None) -> float:
     """R2 over all samples of all recordings."""
     recordings = parts(X, y)
     measured = np.concatenate([np.asarray(force, float) for _, force in recordings])
+    if measured.ndim != 1:
+        raise _core.Error(f"y has {measured.ndim} dimensions; one force per sample")
     modelled = np.concatenate([np.asarray(model.predict(x, sample_time)) for x, _ in recordings])
     if measured.shape != modelled.shape:
         raise _core.Error(f"y has {len(measured)} samples, X {len(modelled)}")
@@ -145,7 +148,7 @@ class Identifier:
         params = self.get_params()
         options = {name: params[name] for name in inspect.signature(fit_options).parameters}
         asked = {"models": [self.model], "command": "dashpot.Identifier (Python)", **fit_options(**options)}
-        self.model_, report = _core.fit(self.recordings(X, y)._core, json.dumps(asked), progress)
+        self.model_, report = _core.fit(self.recordings(X, y)._core, as_json(asked), progress)
         self.report_ = json.loads(report)
         return self
 

@@ -7,6 +7,7 @@ from typing import Any, Iterable, Optional, Union
 import numpy as np
 
 from . import _core
+from ._arrays import as_json
 from ._recordings import Recordings, as_recordings
 
 
@@ -28,12 +29,12 @@ def traces(
     """What stands behind DamperModel.traces()."""
     options = {"force_offset": force_offset, "threads": threads, "keep_inertia": bool(keep_inertia)}
     made = Recordings()
-    made._core = _core.traces(model, as_recordings(recordings)._core, json.dumps(options))
+    made._core = _core.traces(model, as_recordings(recordings)._core, as_json(options))
     return made
 
 
 def _asked(speeds: Iterable[float], format: str, command: str) -> str:
-    return json.dumps({"speeds": [float(speed) for speed in speeds], "format": format, "command": command})
+    return as_json({"speeds": [float(speed) for speed in speeds], "format": format, "command": command})
 
 
 def characterise(recordings, *, speeds: Iterable[float] = (), format: str = "json") -> Any:

@@ -5,6 +5,7 @@ import os
 from typing import Iterable, List, Mapping, Optional, Tuple, Union
 
 from . import _core, _frames
+from ._arrays import as_json
 from ._identify import Progress, Words, words
 
 Plant = Union[str, "os.PathLike[str]", Mapping]
@@ -25,7 +26,7 @@ def _rides(given, sample_time: float) -> _core._Rides:
 
 def _plant(given: Plant) -> str:
     """A file, words, or what such a file holds."""
-    return json.dumps(given) if isinstance(given, Mapping) else os.fspath(given)
+    return as_json(given) if isinstance(given, Mapping) else os.fspath(given)
 
 
 class PlantFit:
@@ -95,7 +96,7 @@ def identify_in_plant(
         "command": "dashpot.identify_in_plant (Python)",
     }
     found, report = _core.identify_in_plant(
-        _rides(rides, sample_time), _plant(plant), json.dumps(options), progress
+        _rides(rides, sample_time), _plant(plant), as_json(options), progress
     )
     return PlantFit(found, json.loads(report))
 
@@ -159,7 +160,7 @@ def observe(
         "steps": steps,
         "threads": threads,
     }
-    core, report = _core.observe(model, _rides(rides, sample_time), _plant(plant), json.dumps(options), progress)
+    core, report = _core.observe(model, _rides(rides, sample_time), _plant(plant), as_json(options), progress)
     return Observation(core, json.loads(report))
 
 
@@ -219,5 +220,5 @@ def watch(
         "threads": threads,
         "state": state,
     }
-    report = _core.watch(model, _rides(rides, sample_time), _plant(plant), json.dumps(options), progress)
+    report = _core.watch(model, _rides(rides, sample_time), _plant(plant), as_json(options), progress)
     return Watch(json.loads(report))

@@ -1,10 +1,10 @@
 """Recordings of a damper: from files, arrays or DataFrames."""
 
-import json
 import os
 from typing import Iterable, Mapping, Optional, Union
 
 from . import _core, _frames
+from ._arrays import as_json
 
 Paths = Union[str, os.PathLike, Iterable[Union[str, os.PathLike]]]
 
@@ -32,7 +32,7 @@ class Recordings:
             return
         several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
         options = {"dataset": os.fspath(dataset), "recognise": recognise, "velocity_cutoff": velocity_cutoff or 0}
-        self._core = _core._Recordings.load([os.fspath(path) for path in several], json.dumps(options))
+        self._core = _core._Recordings.load([os.fspath(path) for path in several], as_json(options))
 
     def add(
         self,
@@ -51,8 +51,13 @@ class Recordings:
         ", stretch 2" behind their names. Raises Error at what cannot be used; nothing is added then.
         """
         names = table.columns if _frames.is_frame(table) else table
+        if not isinstance(table, Mapping) and names is table:
+            raise TypeError(f"table is a {type(table).__name__}; a DataFrame, or a dict of arrays")
         arrays = {str(name): table[name] for name in names if _core.understand_column(str(name))[0]}
-        stated = None if conditions is None else json.dumps(dict(conditions))
+        if not arrays:
+            there = ", ".join(str(name) for name in names) or "none"
+            raise _core.Error(f"table: no name tells a channel (there are {there}); 'force [N]', 'x [mm]', 'time [s]'")
+        stated = None if conditions is None else as_json(dict(conditions))
         self._core.add(arrays, name, sample_time, stated)
         return self
 
@@ -81,4 +86,6 @@ class Recordings:
 
 def as_recordings(data) -> Recordings:
     """Recordings as they are, or those that paths name."""
+    if isinstance(data, Mapping) or _frames.is_frame(data):
+        raise TypeError("one table is no path: Recordings().add(table) makes recordings of it")
     return data if isinstance(data, Recordings) else Recordings(data)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Iterable, Union
 
 from . import _core
+from ._arrays import as_json
 from ._identify import Progress, Words, words
 
 Damper = Union[_core.DamperModel, str]
@@ -101,5 +102,5 @@ def simulate(
             "output_step": output_step,
             "seed": seed,
         }
-        trace, report = _core.simulate(json.dumps(options), progress)
+        trace, report = _core.simulate(as_json(options), progress)
     return Trace(trace, json.loads(report))

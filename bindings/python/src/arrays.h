@@ -19,16 +19,16 @@ inline bool is_in_place(const py::array& array) {
   return true;
 }
 
-/// The array itself, or a copy of other numbers as float64. Raises TypeError at what is not real
-/// numbers.
-inline py::array as_float64(const py::object& values) {
+/// The array itself, or a copy of other numbers as float64. Raises TypeError, which calls it by its
+/// name, at what is not real numbers.
+inline py::array as_float64(const py::object& values, const char* name) {
   // A kind of array of its own, as one with a mask, says more than its samples.
   if (reinterpret_cast<PyObject*>(Py_TYPE(values.ptr())) ==
       reinterpret_cast<PyObject*>(py::detail::npy_api::get().PyArray_Type_)) {
     auto array = py::reinterpret_borrow<py::array>(values);
     if (is_in_place(array)) return array;
   }
-  return py::module_::import("dashpot._arrays").attr("as_float64")(values).cast<py::array>();
+  return py::module_::import("dashpot._arrays").attr("as_float64")(values, name).cast<py::array>();
 }
 
 inline ptrdiff_t stride(const py::array& array, py::ssize_t axis) {
@@ -41,7 +41,7 @@ class Columns {
   /// One value, or one per sample. None: an absent column.
   dashpot_column add(const py::object& values, const char* name) {
     if (values.is_none()) return {nullptr, 0};
-    py::array array = as_float64(values);
+    py::array array = as_float64(values, name);
     const auto* data = static_cast<const double*>(array.data());
     if (array.ndim() > 1)
       throw py::value_error(std::string(name) + " has " + std::to_string(array.ndim()) +

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include <pybind11/pybind11.h>
 
@@ -29,6 +30,17 @@ inline void check(dashpot_status status) {
     PyErr_SetString(kind.ptr(), dashpot_last_error());
   }
   throw py::error_already_set();
+}
+
+/// An argument that is a number, or a text. Raises TypeError at anything else.
+template <class Wanted>
+Wanted argument(const py::object& value, const char* name) {
+  try {
+    return value.cast<Wanted>();
+  } catch (const py::cast_error&) {
+    constexpr const char* kind = std::is_arithmetic_v<Wanted> ? " is no number: " : " is no text: ";
+    throw py::type_error(name + (kind + py::repr(value).cast<std::string>()));
+  }
 }
 
 /// Texts that the library made.

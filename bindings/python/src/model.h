@@ -42,7 +42,7 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
   py::object predict(const py::object& x, const py::object& sample_time, bool interval) const {
     if (!py::isinstance<py::array>(x) && py::hasattr(x, "columns"))
       return py::module_::import("dashpot._frames").attr("predict")(this, x, sample_time, interval);
-    const py::array rows = as_float64(x);
+    const py::array rows = as_float64(x, "X");
     dashpot_motion motion = motion_of(rows);
     motion.sample_time = seconds(sample_time, motion);
     return respond(motion, interval, nullptr, 0);
@@ -96,7 +96,7 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
   /// s; the model's own where none is said, with a warning where no time tells whether it is that
   /// of these rows.
   double seconds(const py::object& sample_time, const dashpot_motion& motion) const {
-    if (!sample_time.is_none()) return sample_time.cast<double>();
+    if (!sample_time.is_none()) return argument<double>(sample_time, "sample_time");
     if (info_.sample_time > 0 && motion.samples > 1 && !motion.time.data) {
       const std::string text = "neither a time nor a sample_time: the rows are taken as " +
                                py::repr(py::float_(info_.sample_time)).cast<std::string>() +

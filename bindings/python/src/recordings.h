@@ -51,12 +51,12 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
            const py::object& conditions) {
     Columns arrays;
     const NamedColumns named(table, arrays);
-    const std::string own_name = name.is_none() ? "" : name.cast<std::string>();
+    const std::string own_name = name.is_none() ? "" : argument<std::string>(name, "name");
     const std::string stated = conditions.is_none() ? "" : conditions.cast<std::string>();
     dashpot_table copied = {};
     copied.name = name.is_none() ? nullptr : own_name.c_str();
     copied.samples = arrays.samples();
-    copied.sample_time = sample_time.is_none() ? 0 : sample_time.cast<double>();
+    copied.sample_time = sample_time.is_none() ? 0 : argument<double>(sample_time, "sample_time");
     copied.columns = named.columns.data();
     copied.column_count = named.columns.size();
     copied.conditions = conditions.is_none() ? nullptr : stated.c_str();
