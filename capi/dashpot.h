@@ -339,8 +339,10 @@ DASHPOT_API dashpot_status dashpot_identify_in_plant(const dashpot_rides* rides,
 /// {"causal": false, "force_error": [[N, s], ...], "level": 0.9, "steps": 0, "threads": 0}.
 /// `estimates`: a recording for each ride, with damper_force, the plant's motion and the road, and
 /// of each half the width of its band as "NAME_half_band". In a plant with several dampers this one
-/// stands in each strut, and the forces are "front_damper_force" and so on. The report (null: not
-/// wanted) has the uncertainties, how the sensors fitted them, and warnings.
+/// stands in each strut, and the forces are "front_damper_force" and so on. A sensor whose noise
+/// the plant does not state has that which the identification of plant or model found; the report
+/// (null: not wanted) says so ("sensor_noise_from"), and has the uncertainties, how the sensors
+/// fitted them, and warnings.
 DASHPOT_API dashpot_status dashpot_observe(const dashpot_model* model, const dashpot_rides* rides,
                                            const char* plant, const char* options,
                                            const dashpot_monitor* monitor,

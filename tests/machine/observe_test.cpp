@@ -130,6 +130,26 @@ TEST_CASE("observe: the force of a damper of another structure, the road not mea
   CHECK(causal_inside > 0.6);
 }
 
+TEST_CASE("observe: the noise of a measured road is in what a wheel's acceleration is to show") {
+  // 0.2 mm push the wheel of the filter by 0.4 m/s^2 through the tyre, and that of the car not.
+  std::string file = kObservedCar;
+  for (const auto& [old, other] :
+       {std::pair<std::string, std::string>{"{kind: ground, class: C, speed: 20 m/s}",
+                                            "{channel: road, kind: ground, noise: 0.2 mm}"},
+        {"wheel, noise: 0.5", "wheel, noise: 0.05"}})
+    file.replace(file.find(old), old.size(), other);
+  const ObservedRide ride = spencer_ride(file, 4);
+  ObserveOptions options;
+  options.force = {{28, 0.005}, {20, 0.3}};
+  const ObserveReport report =
+      observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, options);
+  const auto [error, inside] = judged(report, ride.truth);
+  CHECK(error < 0.01);
+  CHECK(inside > 0.75);
+  CHECK(report.recordings[0].sensors[1].inside > 0.8);
+  CHECK(report.warnings.empty());
+}
+
 TEST_CASE("observe: with the true damper, whose states are in the filter, its memory is known") {
   const ObservedRide ride = spencer_ride(kObservedCar, 3);
   ObserveOptions options;

@@ -147,6 +147,7 @@ def observe(
 
     A plant with several dampers has this one in each strut, and the forces are "front_damper_force" and so on.
     rides, plant, sample_time: as of identify_in_plant(); of the plant all numbers must be known (PlantFit.plant).
+    A sensor whose noise the plant does not state has that which the identification of plant or model found.
     causal: each instant from its past alone. force_error: errors of the model's force as (N, s in which it is
     forgotten); None: found. level: share of the time that bands are to hold. steps: of the filter per sample, 0: as
     many as its error asks for.
