@@ -119,20 +119,21 @@ std::vector<PlantObserver> observers_of(const DamperModels& dampers, const InPla
   return observers;
 }
 
-/// So many steps per sample that twice as many change the forces by less than 0.3 % of their scale.
+/// So many steps per sample, `steps` or more, that twice as many change the forces of the recording
+/// by less than 0.3 % of their scale.
 int enough_steps(const DamperModels& dampers, const InPlantSetup& setup, const ObserverNoise& noise,
                  const ObserverScale& scale, const PlantRecording& recording,
-                 const ObservedSamples& samples) {
+                 const ObservedSamples& samples, int steps) {
   constexpr int kFinestSteps = 32;
   constexpr std::size_t kTried = 1500;
   constexpr double kEnough = 0.003;
 
   // The forces along the first samples, by so many steps.
-  const auto forces = [&](int steps) {
+  const auto forces = [&](int tried) {
     ObservedSamples some = samples;
     some.count = std::min(samples.count, kTried);
     const PlantObserver observer(
-        observer_tables(setup, dampers, noise, scale, recording.sample_time, steps), dampers);
+        observer_tables(setup, dampers, noise, scale, recording.sample_time, tried), dampers);
     const ObservedRun run = filtered(observer, some);
     const std::size_t all = observer.tables().all();
     std::vector<double> force;
@@ -147,8 +148,7 @@ int enough_steps(const DamperModels& dampers, const InPlantSetup& setup, const O
   };
 
   // Twice as many, until that changes little.
-  int steps = 1;
-  for (std::vector<double> coarse = forces(1); steps < kFinestSteps; steps *= 2) {
+  for (std::vector<double> coarse = forces(steps); steps < kFinestSteps; steps *= 2) {
     std::vector<double> fine = forces(2 * steps), change(fine.size());
     for (std::size_t k = 0; k < fine.size(); ++k) change[k] = fine[k] - coarse[k];
     if (rms_of(change) < kEnough * scale.force) break;
@@ -381,10 +381,11 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
     samples.push_back(observed_samples(setup, recording));
   const NoiseSearch search(setup, recordings, scale, options);
 
-  // The filter's step, then what was not stated.
-  report.steps = options.steps > 0 ? options.steps
-                                   : enough_steps(models, setup, search.first(), scale,
-                                                  recordings.front(), samples.front());
+  // The filter's step, by the recording that asks for the finest; then what was not stated.
+  report.steps = std::max(options.steps, 1);
+  for (std::size_t r = 0; options.steps == 0 && r < recordings.size(); ++r)
+    report.steps =
+        enough_steps(models, setup, search.first(), scale, recordings[r], samples[r], report.steps);
   options.monitor.report("uncertainties", 0.1);
   if (!options.causal)
     find_starts(models, setup, recordings, search.first(), scale, report.steps, samples);
