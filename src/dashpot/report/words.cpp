@@ -153,13 +153,19 @@ std::optional<std::string> comparison_note(const Ranking& ranking) {
   const auto compared = std::ranges::find_if(
       ranking.models, [](const RankedModel& model) { return model.over_first.has_value(); });
   if (compared == ranking.models.end()) return std::nullopt;
+
+  // Of few divisions their records were compared, which have more in common than the interval
+  // knows.
+  const std::size_t units = compared->over_first->units, divisions = ranking.folds.size();
+  std::string over = ranking.unit == "stretch of time" ? fmt::format("{} stretches of time", units)
+                                                       : counted(units, ranking.unit);
+  if (divisions > 1 && units != divisions)
+    over += fmt::format(" of {}, within each of which they share a fit",
+                        counted(divisions, "division"));
   return fmt::format(
       "x first: how many times the ESR of the first model that of a model is on a typical {}, "
       "the 90 % interval over {}. Unless it lies above 1, the two cannot be told apart.",
-      ranking.unit,
-      ranking.unit == "stretch of time"
-          ? fmt::format("{} stretches of time", compared->over_first->units)
-          : counted(compared->over_first->units, ranking.unit));
+      ranking.unit, over);
 }
 
 std::optional<std::string> inertia_note(const Ranking& ranking) {

@@ -1,5 +1,6 @@
 #include "dashpot/identify/rank/paired_ratio.h"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -22,6 +23,7 @@ struct UnlikeUnits {
   double times;               ///< the typical ratio of the errors
   double (*spread)(Random&);  ///< of the logarithm of either model's error
   double difficulty_spread = 0.7;
+  double fit_spread = 0;  ///< of the ratio's logarithm, which each half of the units has in common
 };
 double normal_spread(Random& random) { return 0.5 * random.normal(); }
 double heavy_spread(Random& random) { return 0.3 * heavy(random); }
@@ -36,9 +38,12 @@ Shares shares(std::size_t units, const UnlikeUnits& truth) {
   Shares shares;
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<double> model, leader;
+    const std::array<double, 2> fits{truth.fit_spread * random.normal(),
+                                     truth.fit_spread * random.normal()};
     for (std::size_t k = 0; k < units; ++k) {
       const double difficulty = std::exp(truth.difficulty_spread * random.normal());
-      model.push_back(truth.times * difficulty * std::exp(truth.spread(random)));
+      model.push_back(truth.times * difficulty *
+                      std::exp(truth.spread(random) + fits[2 * k / units]));
       leader.push_back(difficulty * std::exp(truth.spread(random)));
     }
     const auto ratio = paired_ratio(model, leader);
@@ -82,6 +87,15 @@ TEST_CASE("paired ratio: equal models are rarely told apart, one five times as b
     CHECK(shares(units, {5, normal_spread}).worse > 94);
     // Units that differ by much more than the models do change nothing.
     CHECK(shares(units, {5, normal_spread, 3}).worse > 94);
+  }
+}
+
+TEST_CASE("paired ratio: records that share the fits of two divisions make the interval short") {
+  for (const std::size_t units : {10, 20}) {
+    CAPTURE(units);
+    const Shares equal = shares(units, {1, normal_spread, 0.7, 0.2});
+    CHECK(equal.held > 75);
+    CHECK(equal.worse < 12);  // 5 % are claimed
   }
 }
 
