@@ -163,8 +163,9 @@ std::optional<std::string> comparison_note(const Ranking& ranking) {
     over += fmt::format(" of {}, within each of which they share a fit",
                         counted(divisions, "division"));
   return fmt::format(
-      "x first: how many times the ESR of the first model that of a model is on a typical {}, "
-      "the 90 % interval over {}. Unless it lies above 1, the two cannot be told apart.",
+      "Apart: whether a model's ESR is shown to be above that of the first on a typical {}: the "
+      "90 % interval of how many times that it is (x first), over {}, lies above 1. Else the two "
+      "cannot be told apart.",
       ranking.unit, over);
 }
 
