@@ -426,9 +426,8 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
     report.warnings.push_back(
-        "neither plant nor model says what any sensor's noise is: it was found beside the law's "
-        "own "
-        "error, each may pass for the other, and bands of the force may hold far less than they "
+        "neither plant nor model says what any sensor's noise is: it was found beside the error of "
+        "the law, each may pass for the other, and bands of the force may hold far less than they "
         "say; state it, as 'noise: 0.05' at a sensor, or take the files of an 'identify --in'");
   report.seconds = cpu_seconds() - started;
   return report;

@@ -10,11 +10,12 @@
 // great on an easy one tells as much as on a hard one: so the logarithm of the ratio of both errors
 // is one number per part, and Student's t interval holds its mean.
 //
-// In simulation, over 4, 5, 10 and 20 parts whose difficulty is spread log-normally (0.7) and whose
-// errors are spread once more (0.5), the 90 % interval covers 89 to 91 % of the true ratios, from 1
-// to 20, and 90 to 93 % where the errors have the tails of Student's t with 3 degrees of freedom.
-// The difference of the pooled errors is no such measure: a part that is hard for both models makes
-// its interval so wide that a model five times as bad on every part is often not told apart.
+// In simulation, over 4, 5, 10 and 20 parts, the 90 % interval covers 90 to 91 % where errors scale
+// (difficulty spread log-normally by 0.7, errors by 0.5), whatever their ratio; 90 to 92 % where
+// they have the tails of Student's t with 3 degrees of freedom, and 90 to 91 % where they add up to
+// what noise leaves (tests/identify/rank/paired_ratio_test.cpp, with -s). The difference of the
+// pooled errors is no such measure: a part that is hard for both models makes its interval so wide
+// that a model five times as bad on every part is often not told apart.
 //
 // Fits of different folds share records, which the interval does not know. It compares two models
 // that were named beforehand: that the first of many is the best by luck is seen by the many that

@@ -50,6 +50,9 @@ constexpr std::array kDrives{
                  "mean over time and dampers, in what drives those of the controller",
                  &M::current}};
 
+static_assert(static_cast<int>(DriveUnit::None) == 0 && static_cast<int>(DriveUnit::Ampere) == 1 &&
+              static_cast<int>(DriveUnit::Volt) == 2);
+
 /// A channel from the first sample that counts.
 std::span<const double> kept(const Trace& trace, const std::string& channel, std::size_t first) {
   return std::span(trace.record.channel(channel).samples).subspan(first);
