@@ -39,8 +39,7 @@ FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Reco
 FitReport fit_passive_network(const PassiveNetworkPreset& preset,
                               const std::vector<Record>& training, DriveUnit drive_unit,
                               const IdentifyOptions& options);
-/// Steps through windows, those side by side in lanes counted once, that the fit above takes: its
-/// cost is in proportion.
+/// Steps through windows that the fit above takes at most: its cost is in proportion.
 double passive_training_steps(const PassiveNetworkPreset& preset,
                               const std::vector<Record>& training, DriveUnit drive_unit,
                               const NetworkDesign& design);

@@ -9,7 +9,6 @@
 #include "dashpot/damper/kinds/passive_hybrid/presets.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/passive_network_fit.h"
-#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
@@ -21,32 +20,6 @@ IdentifyOptions options_for_law(IdentifyOptions options, const PassiveHybridPres
   for (auto& choice : options.choices)
     if (choice.law == preset.name) choice.law = preset.law->name;
   return options;
-}
-
-/// A division of the training records on which both parts are tried, and how much it counts.
-struct Trial {
-  Fold fold;
-  double weight;
-};
-
-/// Motions held back in turn and the ends of the drive, both alike; where there are neither, the
-/// last part of each record.
-std::vector<Trial> trials_of(const std::vector<Record>& training, DriveUnit drive_unit) {
-  std::vector<Trial> trials;
-  const auto add = [&](const std::vector<HeldBack>& parts) {
-    for (const HeldBack& part : parts) {
-      Fold fold;
-      for (std::size_t r = 0; r < training.size(); ++r)
-        (part.contains(r) ? fold.left_out : fold.training).push_back(training[r]);
-      trials.push_back({std::move(fold), 1 / static_cast<double>(parts.size())});
-    }
-  };
-  const HeldBackParts parts = held_back_parts(training, drive_range(training, drive_unit));
-  add(parts.motions);
-  add(parts.ends);
-  if (!trials.empty()) return trials;
-  for (Fold& fold : trial_folds(training)) trials.push_back({std::move(fold), 1});
-  return trials;
 }
 
 /// Sums of squared errors and of their products, N^2, over records that neither has seen.
@@ -105,11 +78,12 @@ class PassiveHybridFit {
   /// The network's share that leaves least, over the trials, of what was held back: in each as a
   /// multiple of what the better of the two leaves alone, so that one wild extrapolation does not
   /// decide alone.
-  double best_share(double decay) const {
-    const std::vector<Trial> trials = trials_of(training_, drive_unit_);
+  double best_share(PassiveEffort effort) const {
+    const std::vector<PassiveTrial> trials =
+        passive_trials(training_, drive_range(training_, drive_unit_)).folds;
     std::vector<ErrorProducts> products(trials.size());
     parallel_for(trials.size(), options_.threads,
-                 [&](std::size_t k) { products[k] = tried(trials[k].fold, decay); });
+                 [&](std::size_t k) { products[k] = tried(trials[k].fold, effort); });
 
     // The error (1 - b) e_law + b e_network is least where its square has no slope by b. A trial in
     // which one of them diverges says nothing.
@@ -126,13 +100,14 @@ class PassiveHybridFit {
 
  private:
   /// Both fitted without what a fold holds back, and judged on that.
-  ErrorProducts tried(const Fold& fold, double decay) const {
+  ErrorProducts tried(const Fold& fold, PassiveEffort effort) const {
     const FitReport of_law = law(fold.training);
     if (!of_law.model) return {};
     IdentifyOptions options = options_;
     options.network = trial_design(options_.network);
-    const FitReport of_network =
-        train_passive_network(*preset_.network, fold.training, drive_unit_, options, decay).report;
+    const FitReport of_network = train_passive_network(*preset_.network, fold.training, drive_unit_,
+                                                       options, trial_effort(effort))
+                                     .report;
     return error_products(*of_law.model, *of_network.model, fold.left_out, drive_unit_,
                           options_.offset);
   }
@@ -155,7 +130,7 @@ FitReport fit_passive_hybrid(const PassiveHybridPreset& preset, const std::vecto
 
   // The network and its share.
   const PassiveNetworkTraining network = fit.network();
-  const double share = fit.best_share(network.decay);
+  const double share = fit.best_share(network.effort);
   report.model = std::make_shared<PassiveHybridModel>(
       dynamic_cast<const LawModel&>(*report.model),
       dynamic_cast<const PassiveNetworkModel&>(*network.report.model), share);

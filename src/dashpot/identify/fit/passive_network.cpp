@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <span>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
@@ -13,6 +15,7 @@
 #include "dashpot/identify/fit/member_report.h"
 #include "dashpot/identify/fit/passive_network_fit.h"
 #include "dashpot/identify/judge/stroke.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
@@ -22,17 +25,29 @@ constexpr double kStepsPerStroke = 25, kFinerSteps = 100, kLongestStep = 0.01,
                  kLongestSwitchingStep = 0.001;        // s
 constexpr double kWindowTime = 1, kRunInShare = 0.25;  // s; of a window
 constexpr std::size_t kShortestWindow = 128, kLongestWindow = 400;
-constexpr std::size_t kUpdates = 1600,
-                      kTrialShare = 2;  // of a member; a trial makes one in so many
-/// How much the networks' weights shrink: not at all, or as strange motions ask for.
-constexpr std::array kWeightDecays{0.0, 1.0};
-constexpr std::size_t kMostMotions = 4;  // groups of them, held back in turn
+constexpr std::size_t kTrialShare = 2;  // one in so many of a member's updates
+/// Where motions or drives are to come that the records do not show, it may help that weights
+/// shrink; where more of the same is to come, that many updates of fewer windows are made, which
+/// takes longer and has to be worth it.
+constexpr PassiveEffort kUsual;
+constexpr std::array kForOtherMotions{kUsual, PassiveEffort{.decay = 1}};
+constexpr std::array kForMoreOfTheSame{kUsual,
+                                       PassiveEffort{.updates = 4800, .windows = 16, .rate = 0.02}};
+constexpr double kWorthLonger = 0.9;          // of what the usual effort leaves
+constexpr std::size_t kLongerForMotions = 2;  // where these motions are all that is to come
+constexpr std::size_t kMostMotions = 4;       // groups of them, held back in turn
 /// Where the drive stands at levels, networks learn to do without reading it in this share of
 /// the windows, and do so beyond the levels, all the way from this share of their range on.
 constexpr double kBlindShare = 0.5, kFadeShare = 0.25;
 constexpr double kDriveSpan = 2;  // of the standardised drive
 
 using Records = std::vector<const FreeRunRecord*>;
+
+Records places_of(const std::vector<FreeRunRecord>& records) {
+  Records places;
+  for (const FreeRunRecord& record : records) places.push_back(&record);
+  return places;
+}
 
 /// s: fine enough for the quickest motion of these records and, where it varies, for their drive.
 double network_step(const Records& records, bool drive_varies,
@@ -54,41 +69,56 @@ std::size_t window_samples(double step) {
                                              static_cast<double>(kLongestWindow)));
 }
 
-/// Updates of a member, and of a trial, which is as much shorter as the design asks for.
-std::size_t member_updates(const NetworkDesign& design) { return design.epochs.value_or(kUpdates); }
-std::size_t trial_updates(const NetworkDesign& design) {
-  return std::max<std::size_t>(member_updates(design) / kTrialShare, 1);
+/// What these trials choose from; a design's own number of updates is held to.
+std::vector<PassiveEffort> efforts_for(const PassiveTrials& trials, const NetworkDesign& design) {
+  std::span<const PassiveEffort> known = kForOtherMotions;
+  if (trials.of_ends) known = kForMoreOfTheSame;
+  std::vector<PassiveEffort> efforts;
+  for (PassiveEffort effort : known) {
+    if (design.epochs && effort.updates != kUsual.updates) continue;
+    effort.updates = design.epochs.value_or(effort.updates);
+    effort.rate = design.rate.value_or(effort.rate);
+    efforts.push_back(effort);
+  }
+  return efforts;
 }
 
 /// Whether networks read the drive within its levels only.
 bool reads_levels(const DriveRange& drive) { return !drive.varies && drive.levels > 1; }
 
+/// The training records in two: those that are held back, and the others.
+template <class Held>
+Fold without(const std::vector<Record>& training, const Held& held) {
+  Fold fold;
+  for (const Record& record : training)
+    (held(record) ? fold.left_out : fold.training).push_back(record);
+  return fold;
+}
+
 /// Motions in turn, dealt to kMostMotions groups; a single one cannot be held back.
-std::vector<HeldBack> motions_in_turn(const std::vector<Record>& records) {
+std::vector<Fold> motions_in_turn(const std::vector<Record>& training) {
   std::set<std::string> motions;
-  for (const Record& record : records) motions.insert(record.condition);
-  if (motions.size() < 2) return {};
-  std::vector<HeldBack> parts(std::min(motions.size(), kMostMotions));
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const auto place = std::distance(motions.begin(), motions.find(records[r].condition));
-    parts[static_cast<std::size_t>(place) % parts.size()].insert(r);
-  }
-  return parts;
+  for (const Record& record : training) motions.insert(record.condition);
+  const std::size_t groups = std::min(motions.size(), kMostMotions);
+  std::vector<Fold> folds;
+  for (std::size_t group = 0; groups > 1 && group < groups; ++group)
+    folds.push_back(without(training, [&](const Record& record) {
+      const auto place = std::distance(motions.begin(), motions.find(record.condition));
+      return static_cast<std::size_t>(place) % groups == group;
+    }));
+  return folds;
 }
 
 /// The least level of the drive and the greatest, where two others are left to extrapolate from.
-std::vector<HeldBack> end_levels_in_turn(const std::vector<Record>& records,
-                                         const DriveRange& drive) {
+std::vector<Fold> end_levels_in_turn(const std::vector<Record>& training, const DriveRange& drive) {
   if (!reads_levels(drive) || drive.levels < 3) return {};
   std::set<double> levels;
-  for (const Record& record : records) levels.insert(record.drive_level.value_or(0));
-  std::vector<HeldBack> parts(2);
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const double level = records[r].drive_level.value_or(0);
-    if (level == *levels.begin()) parts[0].insert(r);
-    if (level == *levels.rbegin()) parts[1].insert(r);
-  }
-  return parts;
+  for (const Record& record : training) levels.insert(record.drive_level.value_or(0));
+  std::vector<Fold> folds;
+  for (const double end : {*levels.begin(), *levels.rbegin()})
+    folds.push_back(without(
+        training, [&](const Record& record) { return record.drive_level.value_or(0) == end; }));
+  return folds;
 }
 
 /// A network of the preset's size with the scales and ranges of the records.
@@ -155,19 +185,18 @@ class PassiveNetworkFit {
  public:
   PassiveNetworkFit(const PassiveNetworkPreset& preset, const std::vector<Record>& training,
                     DriveUnit drive_unit, const IdentifyOptions& options,
-                    std::optional<double> decay, double steps_per_stroke = kStepsPerStroke)
-      : preset_(designed(preset, options.network)), options_(options) {
+                    std::optional<PassiveEffort> effort, double steps_per_stroke = kStepsPerStroke)
+      : preset_(designed(preset, options.network)), drive_unit_(drive_unit), options_(options) {
     const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
-    Records as_recorded;
-    for (const FreeRunRecord& record : recorded) as_recorded.push_back(&record);
+    const Records as_recorded = places_of(recorded);
     const DriveRange drive = drive_range(training, drive_unit);
     start_ = scaled_network(preset_, as_recorded, drive, steps_per_stroke);
     records_ = at_step(as_recorded, start_.model_step);
-    for (const FreeRunRecord& record : records_) all_.push_back(&record);
-    decay_ = decay ? *decay : best_weight_decay(held_back_parts(training, drive));
+    all_ = places_of(records_);
+    effort_ = effort ? *effort : best_effort(passive_trials(training, drive));
   }
 
-  double decay() const { return decay_; }
+  const PassiveEffort& effort() const { return effort_; }
 
   struct Member {
     PassiveNetwork network;
@@ -177,103 +206,114 @@ class PassiveNetworkFit {
   /// Members differ in their random start and in the windows that they see.
   std::vector<Member> members() const {
     std::vector<Member> members(preset_.members);
-    parallel_for(members.size(), options_.threads, [&](std::size_t k) {
-      members[k] = trained(all_, {decay_, member_updates(options_.network), options_.seed + k});
-    });
+    parallel_for(members.size(), options_.threads,
+                 [&](std::size_t k) { members[k] = trained(all_, effort_, options_.seed + k); });
     return members;
   }
 
  private:
-  struct Effort {
-    double decay;
-    std::size_t updates;
-    std::uint64_t seed;
-  };
-
-  Member trained(const Records& records, Effort effort) const {
+  Member trained(const Records& records, const PassiveEffort& effort, std::uint64_t seed) const {
     PassiveTrainOptions options;
     options.updates = effort.updates;
     options.window = window_samples(start_.model_step);
     options.run_in = static_cast<std::size_t>(static_cast<double>(options.window) * kRunInShare);
-    options.rate = options_.network.rate.value_or(options.rate);
+    options.windows = effort.windows;
+    options.rate = effort.rate;
     options.weight_decay = effort.decay;
     options.blind_share = start_.drive_fade > 0 ? kBlindShare : 0;
     options.offsets = options_.offset == OffsetMode::Record;
-    options.seed = effort.seed;
+    options.seed = seed;
     options.on_update = [this] { options_.monitor.check(); };
 
     Member member{start_, {}};
-    initialise(member.network, effort.seed);
+    initialise(member.network, seed);
     member.report = train(member.network, records, options);
     return member;
   }
 
-  /// The mean logarithm of what trials leave of the records held back, for each decay: of the
-  /// logarithm, so that one wild extrapolation does not decide alone.
-  std::array<double, kWeightDecays.size()> left_of(const std::vector<HeldBack>& parts) const {
-    const std::size_t choices = kWeightDecays.size();
-    std::vector<double> left(choices * parts.size());
+  /// The effort that leaves least of what trials hold back, on the mean of logarithms, so that one
+  /// wild extrapolation does not decide alone.
+  PassiveEffort best_effort(const PassiveTrials& trials) const {
+    const std::vector<PassiveEffort> efforts = efforts_for(trials, options_.network);
+    if (efforts.size() == 1) return efforts.front();
+    std::vector<double> left(efforts.size() * trials.folds.size());
     parallel_for(left.size(), options_.threads, [&](std::size_t k) {
-      const HeldBack& part = parts[k / choices];
-      Records training, held_back;
-      for (std::size_t r = 0; r < records_.size(); ++r)
-        (part.contains(r) ? held_back : training).push_back(&records_[r]);
-
-      const Member found = trained(
-          training, {kWeightDecays[k % choices], trial_updates(options_.network), options_.seed});
-      double squares = 0;
-      for (const FreeRunRecord* record : held_back)
-        squares += squares_left(found.network, *record, options_.offset == OffsetMode::Record);
-      left[k] = std::log(squares) / static_cast<double>(parts.size());
+      const PassiveTrial& trial = trials.folds[k / efforts.size()];
+      left[k] =
+          trial.weight * std::log(left_of(trial.fold, trial_effort(efforts[k % efforts.size()])));
     });
-    std::array<double, kWeightDecays.size()> means{};
-    for (std::size_t k = 0; k < left.size(); ++k) means[k % choices] += left[k];
-    return means;
+
+    std::vector<double> sums;
+    for (const PassiveEffort& effort : efforts)
+      sums.push_back(effort.updates > kUsual.updates ? -std::log(kWorthLonger) : 0);
+    for (std::size_t k = 0; k < left.size(); ++k) sums[k % efforts.size()] += left[k];
+    return efforts[static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin())];
   }
 
-  /// The decay that does best where motions and where the drive's ends are held back in turn; both
-  /// count alike.
-  double best_weight_decay(const HeldBackParts& parts) const {
-    const auto by_motion = left_of(parts.motions), by_end = left_of(parts.ends);
-    std::array<double, kWeightDecays.size()> both{};
-    for (std::size_t k = 0; k < both.size(); ++k) both[k] = by_motion[k] + by_end[k];
-    return kWeightDecays[static_cast<std::size_t>(std::ranges::min_element(both) - both.begin())];
+  /// Squared errors that a network leaves of what a fold holds back, N^2, at its own sampling:
+  /// noise that a step averages away counts there.
+  double left_of(const Fold& fold, const PassiveEffort& effort) const {
+    const std::vector<FreeRunRecord> recorded = free_run_records(fold.training, drive_unit_);
+    const std::vector<FreeRunRecord> training = at_step(places_of(recorded), start_.model_step);
+    const Member found = trained(places_of(training), effort, options_.seed);
+    double squares = 0;
+    for (const FreeRunRecord& record : free_run_records(fold.left_out, drive_unit_))
+      squares += squares_left(found.network, record, options_.offset == OffsetMode::Record);
+    return squares;
   }
 
   const PassiveNetworkPreset preset_;
+  const DriveUnit drive_unit_;
   const IdentifyOptions& options_;
   std::vector<FreeRunRecord> records_;  ///< at the network's step
   Records all_;
   PassiveNetwork start_;
-  double decay_ = 0;
+  PassiveEffort effort_;
 };
 
 }  // namespace
 
-HeldBackParts held_back_parts(const std::vector<Record>& training, const DriveRange& drive) {
-  return {motions_in_turn(training), end_levels_in_turn(training, drive)};
+PassiveTrials passive_trials(const std::vector<Record>& training, const DriveRange& drive) {
+  PassiveTrials trials;
+  const auto add = [&](std::vector<Fold> folds) {
+    const double weight = 1 / static_cast<double>(folds.size());
+    for (Fold& fold : folds) trials.folds.push_back({std::move(fold), weight});
+  };
+  add(motions_in_turn(training));
+  add(end_levels_in_turn(training, drive));
+  trials.of_ends = trials.folds.empty();
+  if (trials.of_ends) add(trial_folds(training));
+  return trials;
 }
 
 NetworkDesign trial_design(NetworkDesign design) {
-  design.epochs = trial_updates(design);
   design.members = 1;
   return design;
+}
+
+PassiveEffort trial_effort(PassiveEffort effort) {
+  effort.updates = std::max<std::size_t>(effort.updates / kTrialShare, 1);
+  return effort;
 }
 
 double passive_training_steps(const PassiveNetworkPreset& preset,
                               const std::vector<Record>& training, DriveUnit drive_unit,
                               const NetworkDesign& design) {
   const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
-  Records records;
-  for (const FreeRunRecord& record : recorded) records.push_back(&record);
   const DriveRange drive = drive_range(training, drive_unit);
 
-  // The members, and the trials of each decay on each part held back.
-  const HeldBackParts parts = held_back_parts(training, drive);
-  const std::size_t trials = parts.motions.size() + parts.ends.size();
-  const std::size_t updates = designed(preset, design).members * member_updates(design) +
-                              trials * kWeightDecays.size() * trial_updates(design);
-  return static_cast<double>(updates * window_samples(network_step(records, drive.varies)));
+  // Windows of the trials of every effort, and of the members with the greatest.
+  const PassiveTrials trials = passive_trials(training, drive);
+  const std::vector<PassiveEffort> efforts = efforts_for(trials, design);
+  std::size_t of_trial = 0, of_member = 0;
+  for (const PassiveEffort& effort : efforts) {
+    if (efforts.size() > 1) of_trial += trial_effort(effort).updates * effort.windows;
+    of_member = std::max(of_member, effort.updates * effort.windows);
+  }
+  const std::size_t windows =
+      designed(preset, design).members * of_member + trials.folds.size() * of_trial;
+  return static_cast<double>(windows *
+                             window_samples(network_step(places_of(recorded), drive.varies)));
 }
 
 namespace {
@@ -293,17 +333,19 @@ FitReport report_of(const PassiveNetworkPreset& preset, const PassiveNetworkFit&
 PassiveNetworkTraining train_passive_network(const PassiveNetworkPreset& preset,
                                              const std::vector<Record>& training,
                                              DriveUnit drive_unit, const IdentifyOptions& options,
-                                             std::optional<double> decay) {
-  const PassiveNetworkFit fit(preset, training, drive_unit, options, decay);
-  return {report_of(preset, fit), fit.decay()};
+                                             std::optional<PassiveEffort> effort) {
+  const PassiveNetworkFit fit(preset, training, drive_unit, options, effort);
+  return {report_of(preset, fit), fit.effort()};
 }
 
 FitReport fit_to_these_motions(const PassiveNetworkPreset& preset,
                                const std::vector<Record>& training, DriveUnit drive_unit,
                                IdentifyOptions options) {
-  if (!options.network.epochs) options.network.epochs = 2 * kUpdates;
+  PassiveEffort effort = kUsual;
+  effort.updates = options.network.epochs.value_or(kLongerForMotions * kUsual.updates);
+  effort.rate = options.network.rate.value_or(effort.rate);
   return report_of(preset,
-                   PassiveNetworkFit(preset, training, drive_unit, options, 0.0, kFinerSteps));
+                   PassiveNetworkFit(preset, training, drive_unit, options, effort, kFinerSteps));
 }
 
 FitReport fit_passive_network(const PassiveNetworkPreset& preset,

@@ -12,8 +12,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kWindows = 32;  // of an update
-constexpr double kMostNorm = 1;       // of a gradient; a steeper one is shortened
+constexpr double kMostNorm = 1;  // of a gradient; a steeper one is shortened
 
 /// The mean of a signal over `width` samples about each one.
 std::vector<double> averaged(const std::vector<double>& signal, std::size_t width) {
@@ -82,7 +81,8 @@ class WindowBatch {
   /// Samples that were scored since the last call of clear().
   double scored() const { return scored_; }
 
-  /// The sum of squared errors of kWindows windows from anywhere, whose gradients are then known.
+  /// The sum of squared errors of an update's windows from anywhere, whose gradients are then
+  /// known.
   double run(const std::vector<double>& numbers, const std::vector<double>& offsets,
              Random& random) {
     std::ranges::transform(numbers, numbers_.begin(),
@@ -91,7 +91,8 @@ class WindowBatch {
     offset_gradient_.assign(samples_.size(), 0.0);
     scored_ = 0;
     double squares = 0;
-    for (std::size_t w = 0; w < kWindows; w += kernel_.lanes) squares += block(offsets, random);
+    for (std::size_t w = 0; w < options_.windows; w += kernel_.lanes)
+      squares += block(offsets, random);
     return squares;
   }
 
@@ -172,6 +173,8 @@ class Descent {
   Descent(const PassiveNetwork& network, const PassiveTrainOptions& options, std::size_t records)
       : options_(options),
         first_positive_(PassiveLayout(network.sizes).first_positive()),
+        inertia_rate_(PassiveLayout(network.sizes).inertia_rate),
+        most_inertia_rate_(std::log(2 / network.model_step)),
         values_(network.numbers),
         decay_(network.numbers.size(), 0.0),
         mean_(network.numbers.size() + records, 0.0),
@@ -203,6 +206,7 @@ class Descent {
     };
     for (std::size_t k = 0; k < count; ++k) {
       values_[k] -= rate * decay_[k] * values_[k] + move(k, gradient[k] * shorter);
+      if (k == inertia_rate_) values_[k] = std::min(values_[k], most_inertia_rate_);
       numbers[k] = k < first_positive_ ? values_[k] : std::exp(values_[k]);
     }
     if (!options_.offsets) return;
@@ -225,7 +229,9 @@ class Descent {
   }
 
   const PassiveTrainOptions& options_;
-  const std::size_t first_positive_;
+  const std::size_t first_positive_, inertia_rate_;
+  const double
+      most_inertia_rate_;  ///< its logarithm: a step cannot tell what is quicker than itself
   std::vector<double> values_, decay_, mean_, square_;
   double kept_mean_ = 1, kept_square_ = 1;
 };

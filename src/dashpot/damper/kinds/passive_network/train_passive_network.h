@@ -12,6 +12,7 @@ namespace dashpot {
 /// that start anywhere in the records, each run freely from rest, gradients through time.
 struct PassiveTrainOptions {
   std::size_t updates = 1600;
+  std::size_t windows = 32;  ///< of an update: in whole blocks of the processor's lanes
   std::size_t window = 256,
               run_in = 64;  ///< samples of the network's step; the run-in is not scored
   double rate = 1e-2;
