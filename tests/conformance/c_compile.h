@@ -25,15 +25,19 @@ inline std::string chosen_runner() {
 }
 
 /// Compiles all C in the folder, NAME.c with NAME_test.c, and runs the tests. What fails is
-/// printed.
+/// printed. Both are one unit, which takes half the time of two; of the test, which stands in for
+/// a header of the system then, no warnings are wanted.
 inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags,
                                      const std::string& runner = chosen_runner()) {
+  const std::string linker =
+      run_program("command -v mold").exit_code == 0 ? "-fuse-ld=mold " : "";  // a tenth less time
   folder.write(
       "check",
+      "printf '#pragma GCC system_header\\n#include \"%s_test.c\"\\n' $1 > $1_quiet.h\n"
+      "printf '#include \"%s.c\"\\n#include \"%s_quiet.h\"\\n' $1 $1 > $1_both.c\n"
       "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Werror " +
-          flags + " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w " + flags +
-          " $1_test.c $1.o -lm -o $1 && " + runner + " ./$1 > $1.out 2>&1 || " +
-          "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
+          linker + flags + " $1_both.c -lm -o $1 > $1.out 2>&1 && " + runner +
+          " ./$1 > $1.out 2>&1 || " + "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
   return run_program(
       "cd '" + folder.path().string() +
       "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");

@@ -21,5 +21,5 @@ TEST_CASE("exported C of an observer: the library's estimates in double and sing
     write(damper, example_observer(damper));
     write(std::string("half_car_") + damper, example_half_car_observer(damper));
   }
-  check_that_it_runs(folder, "-O1 " + kAsTheTests);
+  check_that_it_runs(folder, kAsTheTests);
 }

@@ -1,4 +1,6 @@
 // FMUs of controllers and inverses, driven along the runs that their C is checked along.
+#include <set>
+
 #include "control_cases.h"
 #include "dashpot/base/parallel.h"
 #include "export/fmu_importer.h"
@@ -38,8 +40,17 @@ TEST_CASE("FMUs of every controller and inverse give the library's commands" *
           doctest::test_suite("long")) {
   if (!has_compiler()) return;
   std::vector<BlockCase> cases = block_cases();
-  // Coils that lag make the same FMUs but for the C, which is run without an FMU.
-  std::erase_if(cases, [](const BlockCase& one) { return one.name.ends_with("_lag"); });
+  // Blocks of the same inputs and commands differ in their C alone, which is run for each without
+  // an FMU: one of them is enough.
+  std::set<std::vector<std::string>> known;
+  std::erase_if(cases, [&](const BlockCase& one) {
+    const CBlock block = one.block({});
+    std::vector<std::string> ports;
+    for (const std::vector<CPort>& side : {block.inputs, block.commands})
+      for (const CPort& port : side) ports.push_back(port.at(0) + std::to_string(port.count));
+    return !known.insert(ports).second;
+  });
+  CHECK(cases.size() >= 8);
   std::vector<std::string> archives(cases.size());
   parallel_for(cases.size(), 0,
                [&](std::size_t k) { archives[k] = fmu_of(cases[k].block, k % 2 == 0 ? 2 : 3); });
