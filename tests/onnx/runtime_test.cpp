@@ -51,8 +51,10 @@ TEST_CASE(
     "1e-12") {
   if (!is_runtime_there()) return;
   const TemporaryFolder folder;
+  // Graphs in single precision differ in the type of their numbers alone: every third is enough.
+  std::size_t count = 0;
   for (const ExampleModel& example : example_models()) {
-    write_model(folder, *example.model, {.name = example.name + "_float"});
+    if (count++ % 3 == 0) write_model(folder, *example.model, {.name = example.name + "_float"});
     write_model(folder, *example.model,
                 {.name = example.name + "_double", .precision = CPrecision::Double});
     if (example.name == "narx")  // on its grid of 5 ms, whatever the steps
