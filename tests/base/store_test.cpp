@@ -9,6 +9,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
+#include "sanitized.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -231,7 +232,7 @@ TEST_CASE("single bits that flip in the file cost results, and never change one"
   const std::string whole = read_file(file);
   Random random(3);
   int changed = 0;
-  for (int trial = 0; trial < 400; ++trial) {
+  for (int trial = 0; trial < (kSanitized ? 60 : 200); ++trial) {
     std::string flipped = whole;
     flipped[random.next() % whole.size()] ^= static_cast<char>(1 << random.next() % 8);
     write_file(file, flipped);

@@ -25,7 +25,8 @@ TEST_CASE("bench: a folder is understood by the dataset file in it") {
   CHECK(dataset.drive_unit == DriveUnit::Volt);
 }
 
-TEST_CASE("bench: the same seed gives the same bytes, another seed others") {
+TEST_CASE("bench: the same seed gives the same bytes, another seed others" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto bytes_of = [&](const std::string& name, const std::string& seed) {
     const std::string to = (folder.path() / name).string();
@@ -39,7 +40,7 @@ TEST_CASE("bench: the same seed gives the same bytes, another seed others") {
   CHECK(first.starts_with("t_s,x_mm,F_N,voltage_V\n"));
 }
 
-TEST_CASE("bench: a level below 0 or none is refused") {
+TEST_CASE("bench: a level below 0 or none is refused" * doctest::test_suite("long")) {
   const ProgramResult below = run_dashpot("bench --motions 5x2 --levels=1,-1 --output /tmp/never");
   CHECK(below.exit_code == 2);
   CHECK(contains(below.output, "--levels: -1 is below 0, and dampers are driven from 0 up"));
@@ -122,7 +123,7 @@ TEST_CASE("bench: the list of sequences, for people and programs") {
   CHECK(json.find("experiments")->items().size() == 5);
 }
 
-TEST_CASE("bench: sequences that cannot be run are refused") {
+TEST_CASE("bench: sequences that cannot be run are refused" * doctest::test_suite("long")) {
   const auto refused = [](const std::string& arguments, int code, const std::string& what) {
     const ProgramResult result = run_dashpot("bench " + arguments + " --output /tmp/never");
     CHECK(result.exit_code == code);
@@ -201,7 +202,7 @@ TEST_CASE(
   CHECK(contains(line.output, "does not know what its recordings have told"));
 }
 
-TEST_CASE("bench --family: what cannot be benched is refused") {
+TEST_CASE("bench --family: what cannot be benched is refused" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string good = folder.write("good.yaml", "gap: 1 mm\n").string();
   folder.write("bad.yaml", "gap: 40 mm\n");

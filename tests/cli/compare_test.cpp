@@ -55,7 +55,8 @@ TEST_CASE("compare: two campaigns of one damper hardly differ, beside their nois
   CHECK(speeds == 8);
 }
 
-TEST_CASE("compare: models over recordings, with fit; a warning where these taught a model") {
+TEST_CASE("compare: models over recordings, with fit; a warning where these taught a model" *
+          doctest::test_suite("long")) {
   const Campaigns& all = campaigns();
   const std::string page = (all.folder.path() / "page.html").string();
   const std::string model = all.models + "/bingham.json";
@@ -98,7 +99,8 @@ TEST_CASE("compare: models alone move over the range of the first" * doctest::te
   CHECK(contains(result.output, "forces compared"));
 }
 
-TEST_CASE("compare refuses one thing, what is not there, and a model of another drive") {
+TEST_CASE("compare refuses one thing, what is not there, and a model of another drive" *
+          doctest::test_suite("long")) {
   const Campaigns& all = campaigns();
   const ProgramResult one = run_dashpot("compare " + all.before);
   CHECK(one.exit_code == 2);

@@ -20,7 +20,7 @@ std::string bash_completion(const std::string& words, int count) {
 
 }  // namespace
 
-TEST_CASE("the completion scripts are valid in their shells") {
+TEST_CASE("the completion scripts are valid in their shells" * doctest::test_suite("long")) {
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     CAPTURE(shell);
     const ProgramResult script = run_dashpot("completion " + shell);
@@ -35,7 +35,8 @@ TEST_CASE("the completion scripts are valid in their shells") {
   }
 }
 
-TEST_CASE("bash completes commands, options, models and lists of them") {
+TEST_CASE("bash completes commands, options, models and lists of them" *
+          doctest::test_suite("long")) {
   CHECK(bash_completion("dashpot ide", 2) == "identify identify-many\n");
   CHECK(bash_completion("dashpot identify --leave", 3) == "--leave-out\n");
   CHECK(bash_completion("dashpot models bing", 3) == "bingham\n");

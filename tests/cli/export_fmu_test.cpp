@@ -38,7 +38,8 @@ TEST_CASE("export writes controllers and inverses as FMUs") {
   }
 }
 
-TEST_CASE("the guide's loop of a damper's and a controller's FMU runs") {
+TEST_CASE("the guide's loop of a damper's and a controller's FMU runs" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string page = dashpot::read_file(project_file("docs/fmu.md")), fence = "```python\n";
   const std::size_t begin = page.find(fence) + fence.size();
@@ -62,7 +63,7 @@ TEST_CASE("the guide's loop of a damper's and a controller's FMU runs") {
   CHECK(height < 11.8);
 }
 
-TEST_CASE("export says which compiler an FMU lacks") {
+TEST_CASE("export says which compiler an FMU lacks" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_dashpot("export --parameters spencer1997 --to fmu3 --compiler none -o '" +
@@ -72,7 +73,8 @@ TEST_CASE("export says which compiler an FMU lacks") {
   CHECK(contains(result.output, "--sources-only"));
 }
 
-TEST_CASE("the guide's loop over a tunable gap runs, from a drawing to an FMU") {
+TEST_CASE("the guide's loop over a tunable gap runs, from a drawing to an FMU" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   dashpot::ModelFile family;
   family.model = dashpot::example_family_physics().with_offset(0);
@@ -159,7 +161,8 @@ TEST_CASE("export says which damper of a family it froze, and refuses what canno
   CHECK_CLOSE(std::stod(other.output), member->force({0, 0.05, 1}, state), 1e-12, 0);
 }
 
-TEST_CASE("export says which compiler a platform needs, and what binaries are of") {
+TEST_CASE("export says which compiler a platform needs, and what binaries are of" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string words =
       " export --parameters spencer1997 -o '" + folder.path().string() + "' --to ";

@@ -94,7 +94,7 @@ TEST_CASE(
       "another damper"));
 }
 
-TEST_CASE("export says what is wrong") {
+TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   const auto complains = [](const std::string& arguments, const std::string& of) {
     const ProgramResult result = run_dashpot("export " + arguments);
     CAPTURE(result.output);
@@ -119,7 +119,8 @@ TEST_CASE("export says what is wrong") {
   complains(damper + "--to onnx -o /proc/none", "/proc/none");
 }
 
-TEST_CASE("export --velocities: a grid in mm/s, a warning beyond the data, and wrong ones") {
+TEST_CASE("export --velocities: a grid in mm/s, a warning beyond the data, and wrong ones" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string asked = "export --parameters spencer1997 --name d -o " + folder.path().string();
   const ProgramResult made =

@@ -76,12 +76,13 @@ TEST_CASE("a full disk: MAT files are whole, or the command fails") {
   check_full_disk("export --to tables --parameters spencer1997 --quiet");
 }
 
-TEST_CASE("a full disk: figures are whole, or the command fails") {
+TEST_CASE("a full disk: figures are whole, or the command fails" * doctest::test_suite("long")) {
   if (!has_gnuplot()) return;
   check_full_disk("simulate --duration 3 --figures --quiet");
 }
 
-TEST_CASE("a full disk ends a sweep with an error, not a crash, and its tables stay whole") {
+TEST_CASE("a full disk ends a sweep with an error, not a crash, and its tables stay whole" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string sweep = "sweep comfort --samples 8 --duration 6 --quiet";
   const std::string out = (folder.path() / "out").string();
@@ -107,7 +108,8 @@ TEST_CASE("links at the names of results and of temporaries lead nowhere") {
   CHECK(!fs::is_symlink(out / "trace.mat"));
 }
 
-TEST_CASE("options that would take for ever are refused with what they would cost") {
+TEST_CASE("options that would take for ever are refused with what they would cost" *
+          doctest::test_suite("long")) {
   const auto check = [](const std::string& command, const std::string& why) {
     const auto begin = std::chrono::steady_clock::now();
     const ProgramResult result = run_program("timeout 20 " + program_path() + " " + command);

@@ -82,7 +82,7 @@ TEST_CASE("the topics of a command explain every option that its help leaves out
   }
 }
 
-TEST_CASE("help on a topic, on one option, and on what is neither") {
+TEST_CASE("help on a topic, on one option, and on what is neither" * doctest::test_suite("long")) {
   CHECK(run_dashpot("help identify networks").output.starts_with("How networks are built"));
   CHECK(run_dashpot("identify --help networks").output ==
         run_dashpot("help identify networks").output);
@@ -98,7 +98,8 @@ TEST_CASE("help on a topic, on one option, and on what is neither") {
   CHECK(contains(wrong.output, "identify: help has no topic 'netwrks'; known: all, ride, data"));
 }
 
-TEST_CASE("a group of commands explains itself and names its own; each has options of its own") {
+TEST_CASE("a group of commands explains itself and names its own; each has options of its own" *
+          doctest::test_suite("long")) {
   const ProgramResult group = run_dashpot("study --help");
   CHECK(group.exit_code == 0);
   for (const char* part : {"dashpot study STUDY [options]", "one-sensor", "recovery"})
@@ -114,12 +115,13 @@ TEST_CASE("a group of commands explains itself and names its own; each has optio
 }
 
 TEST_CASE(
-    "help keeps to the width of the terminal, but for the examples, which must be copied whole") {
+    "help keeps to the width of the terminal, but for the examples, which must be copied whole" *
+    doctest::test_suite("long")) {
   const std::string help = run_dashpot("identify --help", "COLUMNS=60").output;
   CHECK(longest_line(help.substr(0, help.find("\nExample\n"))) <= 60);
 }
 
-TEST_CASE("help prints the defaults that the program uses") {
+TEST_CASE("help prints the defaults that the program uses" * doctest::test_suite("long")) {
   const std::string help = run_dashpot("identify --help").output;
   CHECK(contains(help, "(default: dashpot-results)"));
   CHECK(contains(run_dashpot("help identify --force-offset").output, "(default: record)"));
@@ -181,13 +183,13 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right" *
   }
 }
 
-TEST_CASE("version") {
+TEST_CASE("version" * doctest::test_suite("long")) {
   CHECK(run_dashpot("version").output.starts_with("dashpot "));
   CHECK(run_dashpot("--version").output == run_dashpot("version").output);
   CHECK(contains(run_dashpot("version --json").output, "\"version\":"));
 }
 
-TEST_CASE("no colour where stdout is no terminal") {
+TEST_CASE("no colour where stdout is no terminal" * doctest::test_suite("long")) {
   CHECK(!contains(run_dashpot("").output, "\x1b"));
 }
 

@@ -61,7 +61,8 @@ TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a m
   CHECK_CLOSE(model.model->force({0, 1, 0}, {}), 34, 0.2, 0);
 }
 
-TEST_CASE("identify --in: what cannot be used is said before the work") {
+TEST_CASE("identify --in: what cannot be used is said before the work" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string data =
       folder.write("a.csv", "time [s],push [N],x [mm]\n0,1,0\n1,2,1\n2,3,1\n").string();

@@ -113,7 +113,7 @@ TEST_CASE("identify-many: the same rows with one thread, in parts, and after an 
   write_file(changed, before);
 }
 
-TEST_CASE("identify-many says what would be right") {
+TEST_CASE("identify-many says what would be right" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto says = [&](const std::string& arguments, int code) {
     const ProgramResult result =

@@ -59,7 +59,7 @@ std::string german() {
 
 }  // namespace
 
-TEST_CASE("currents in names are read right or asked about") {
+TEST_CASE("currents in names are read right or asked about" * doctest::test_suite("long")) {
   const Wrong table[] = {
       {"a decimal comma",
        {{"run_0,5A.csv", passive()}},
@@ -121,7 +121,7 @@ TEST_CASE("currents in names are read right or asked about") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
-TEST_CASE("units are converted, or refused with the nearest ones") {
+TEST_CASE("units are converted, or refused with the nearest ones" * doctest::test_suite("long")) {
   const Wrong table[] = {
       {"pounds",
        {{"r_1A.csv", passive("t_s,x_mm,Force (lbs)\n")}},
@@ -168,7 +168,7 @@ TEST_CASE("units are converted, or refused with the nearest ones") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
-TEST_CASE("units that workshops use are converted") {
+TEST_CASE("units that workshops use are converted" * doctest::test_suite("long")) {
   const Wrong table[] = {
       {"feet, kiloponds and milliamperes",
        {{"r.csv", csv({}, 300, "t (s),x (ft),F (kp),I (mA)\n")}},
@@ -189,7 +189,8 @@ TEST_CASE("units that workshops use are converted") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
-TEST_CASE("roles hold by themselves, and a drive that nothing tells is called unknown") {
+TEST_CASE("roles hold by themselves, and a drive that nothing tells is called unknown" *
+          doctest::test_suite("long")) {
   const Wrong table[] = {
       {"roles without leave_out",
        {{"run_0A.csv", passive()},
@@ -276,7 +277,7 @@ TEST_CASE("folders keep their statements, and bad files stop nothing") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
-TEST_CASE("files as laboratories write them") {
+TEST_CASE("files as laboratories write them" * doctest::test_suite("long")) {
   const std::string yaml = "files:\n  - match: r.csv\n    on_bad_row: ";
   const Wrong table[] = {
       {"thousands",

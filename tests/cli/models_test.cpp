@@ -33,7 +33,8 @@ TEST_CASE("models NAME: equation, every parameter with its unit, source" *
   }
 }
 
-TEST_CASE("models --json holds the tables as they stand in the registry") {
+TEST_CASE("models --json holds the tables as they stand in the registry" *
+          doctest::test_suite("long")) {
   const Value list = parse_json(run_dashpot("models --json").output, "models --json");
   REQUIRE(list.items().size() == model_names().size());
   const Value one =
@@ -46,7 +47,8 @@ TEST_CASE("models --json holds the tables as they stand in the registry") {
   CHECK(first.find("upper")->as_number() == law.params.front().upper);
 }
 
-TEST_CASE("models --markdown has a section per model, and the page in docs/ is up to date") {
+TEST_CASE("models --markdown has a section per model, and the page in docs/ is up to date" *
+          doctest::test_suite("long")) {
   const ProgramResult page = run_dashpot("models --markdown");
   CHECK(page.output == read_file(project_file("docs/models.md")));
   for (const std::string& name : model_names()) CHECK(contains(page.output, "\n## `" + name + "`"));

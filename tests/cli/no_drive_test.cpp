@@ -88,7 +88,8 @@ TEST_CASE("velocity and force alone are identified, and predict what was left ou
   CHECK(read_file(results() / "report.csv").starts_with("model,record,condition,drive_none,"));
 }
 
-TEST_CASE("a model without a drive is evaluated on such recordings again, with the same errors") {
+TEST_CASE("a model without a drive is evaluated on such recordings again, with the same errors" *
+          doctest::test_suite("long")) {
   const ProgramResult result = stdout_of_dashpot("evaluate " + model_of("bingham") + " " +
                                                  public_set().string() + " --json");
   CHECK(result.exit_code == 0);
@@ -119,7 +120,8 @@ TEST_CASE("a model without a drive is ranked, exported and driven as a passive d
   CHECK(contains(ride, "tanh_kwok"));
 }
 
-TEST_CASE("recordings with and without a drive are not one dataset, and it is said which") {
+TEST_CASE("recordings with and without a drive are not one dataset, and it is said which" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder, out;
   const std::vector<Record>& records = bench().records;
   folder.write("a_1A.csv", csv_of(records[0]));

@@ -42,8 +42,8 @@ TEST_CASE(
   CHECK(!contains(other.output, "kept from before"));
 }
 
-TEST_CASE(
-    "rank: fits that an older version kept stay as they are, and are made again beside them") {
+TEST_CASE("rank: fits that an older version kept stay as they are, and are made again beside them" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const fs::path older = folder.write("fits/bingham-d818ac6dd7c05e7b.json",
                                       "{\"format\": \"dashpot fit 1\", \"key\": \"0.1.0\"}");
@@ -90,7 +90,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rank --markdown prints a part of a page and nothing else on stdout; --json one document") {
+    "rank --markdown prints a part of a page and nothing else on stdout; --json one document" *
+    doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProgramResult page = stdout_of_dashpot(rank_of("bingham --markdown", folder.path()));
   CHECK(page.exit_code == 0);
@@ -163,7 +164,8 @@ TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit" 
   refused("--plant savaresi_spelta --in-car", 2, "--in-car: serves a controller");
 }
 
-TEST_CASE("rank: its progress as JSON has each model when it ends, and parameters as they move") {
+TEST_CASE("rank: its progress as JSON has each model when it ends, and parameters as they move" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_dashpot(rank_of("bingham,tanh_kwok", folder.path()) + " --fresh --progress json");

@@ -18,7 +18,8 @@ TEST_CASE("simulate: measures against passive, a page and both traces") {
   CHECK(std::filesystem::exists(out + "/against.csv"));
 }
 
-TEST_CASE("simulate: a car on a road of one track is said not to roll") {
+TEST_CASE("simulate: a car on a road of one track is said not to roll" *
+          doctest::test_suite("long")) {
   const std::string car = "simulate --plant ikenaga2000 --duration 1 --road iso8608_fft,length=50";
   CHECK(contains(run_dashpot(car).output, "the car does not roll"));
   CHECK(!contains(run_dashpot(car + ",track_width=1.5m").output, "the car does not roll"));
@@ -58,7 +59,7 @@ TEST_CASE("simulate: a damper of a model file on a lever, asked beyond its data,
   CHECK(contains(result.output, "N*s/m between 0 and 2 V at the strut"));
 }
 
-TEST_CASE("simulate: what there is to choose from") {
+TEST_CASE("simulate: what there is to choose from" * doctest::test_suite("long")) {
   CHECK(contains(run_dashpot("simulate --list plants").output, "dyke_spencer1996"));
   CHECK(contains(run_dashpot("simulate --list controllers").output, "sh_add"));
   CHECK(contains(run_dashpot("simulate --list roads").output, "earthquake"));

@@ -21,22 +21,22 @@ std::string sweep_of(const std::string& options) {
 TEST_CASE("sweep: a table, a page, rides as CSV and HDF5; more samples go on from there") {
   const TemporaryFolder folder;
   const std::string output = " --output " + folder.path().string();
-  const ProgramResult result = run_dashpot(sweep_of("--samples 20" + output));
+  const ProgramResult result = run_dashpot(sweep_of("--samples 10" + output));
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
   for (const char* part :
-       {"sweep: 20 vehicles, 3 controllers each", "Against passive", "Weighted acceleration",
-        "What matters", "sprung_mass", "60 rides in", "uniform, 320 ... 520 kg"})
+       {"sweep: 10 vehicles, 3 controllers each", "Against passive", "Weighted acceleration",
+        "What matters", "sprung_mass", "30 rides in", "uniform, 320 ... 520 kg"})
     CHECK_MESSAGE(contains(result.output, part), part);
   for (const char* file : {"sweep.sqlite", "report.html", "report.json", "report.md", "rides.csv",
                            "quantiles.csv", "ratios.csv", "correlations.csv", "sweep.h5"})
     CHECK_MESSAGE(fs::exists(folder.path() / file), file);
-  CHECK(split(read_file(folder.path() / "rides.csv"), '\n').size() == 62);
+  CHECK(split(read_file(folder.path() / "rides.csv"), '\n').size() == 32);
   const std::string first = read_file(folder.path() / "rides.csv");
 
-  const ProgramResult more = run_dashpot(sweep_of("--samples 40 --json" + output));
-  CHECK(contains(more.output, "120 rides in"));
-  CHECK(contains(more.output, "; 60 kept from before"));
+  const ProgramResult more = run_dashpot(sweep_of("--samples 20 --json" + output));
+  CHECK(contains(more.output, "60 rides in"));
+  CHECK(contains(more.output, "; 30 kept from before"));
   CHECK(read_file(folder.path() / "rides.csv").starts_with(first));
 
   const ProgramResult other = run_dashpot(sweep_of("--seed 2" + output));
@@ -97,7 +97,7 @@ TEST_CASE("sweep: an interruption says what is kept and how to go on" *
   CHECK(!fs::exists(folder.path() / "sweep.sqlite-wal"));  // closed in order
 }
 
-TEST_CASE("sweep: what cannot be swept is told") {
+TEST_CASE("sweep: what cannot be swept is told" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const fs::path bad = folder.write(
       "bad.yaml", "plant: savaresi_spelta\nroad: iso8608_fft\nvary:\n  mass: [3 kg]\n");

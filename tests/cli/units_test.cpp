@@ -61,7 +61,8 @@ void check_ratios(const Cells& si, const Cells& pounds) {
 
 }  // namespace
 
-TEST_CASE("CSV files in pounds and inches are those in SI times the ratio of their units") {
+TEST_CASE("CSV files in pounds and inches are those in SI times the ratio of their units" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string to = folder.path().string(), data = small_campaign().string(),
                     pounds = " --units lbf,in/s";
@@ -74,7 +75,8 @@ TEST_CASE("CSV files in pounds and inches are those in SI times the ratio of the
   check_ratios(cells_of(to + "/ride/trace.csv"), cells_of(to + "/pounds/trace.csv"));
 }
 
-TEST_CASE("a bench in pounds and inches is read as the same recordings") {
+TEST_CASE("a bench in pounds and inches is read as the same recordings" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string to = folder.path().string(),
                     bench = "bench --motions 10x1 --levels 1 --cycles 2 --sample-rate 200 -o " + to;

@@ -85,7 +85,8 @@ TEST_CASE("a results folder that cannot be written is refused before the fit") {
   CHECK(read_file(file) == "old");
 }
 
-TEST_CASE("a budget that is no time is refused before anything is read") {
+TEST_CASE("a budget that is no time is refused before anything is read" *
+          doctest::test_suite("long")) {
   const auto fit = [](const std::string& budget, const std::string& said) {
     return Wrong{budget,
                  {{"a_1Hz.csv", csv()}, {"b_2Hz.csv", csv()}},

@@ -62,7 +62,8 @@ const char* const kMassUnknown =
 
 }  // namespace
 
-TEST_CASE("advice: the intervals with one more sensor, as the fit with it has them") {
+TEST_CASE("advice: the intervals with one more sensor, as the fit with it has them" *
+          doctest::test_suite("long")) {
   const InPlantReport without = fitted(pushed_setup(false, kMassUnknown), {});
   const InPlantReport with = fitted(pushed_setup(true, kMassUnknown), {});
   CHECK(without.advice.grade == "car");

@@ -174,7 +174,8 @@ TEST_CASE("a plant of matrices: a quarter car written so is the shipped one, to 
   CHECK(furthest_share(force(shipped, by_shipped), force(own, by_own)) < 1e-4);
 }
 
-TEST_CASE("a plant of matrices: a chain that no shipped plant is, its damper over two springs") {
+TEST_CASE("a plant of matrices: a chain that no shipped plant is, its damper over two springs" *
+          doctest::test_suite("long")) {
   const InPlantSetup setup = parse_in_plant_setup(
       "plant: matrices\n"
       "coordinates: [x1, x2, x3]\n"

@@ -118,7 +118,8 @@ TEST_CASE("a road that follows: a half car is found of whose rear wheel no road 
   CHECK(late.sensors[2].training > 3 * report.sensors[2].training);
 }
 
-TEST_CASE("a road that follows: a speed that is known to some percents is found") {
+TEST_CASE("a road that follows: a speed that is known to some percents is found" *
+          doctest::test_suite("long")) {
   const InPlantSetup setup = parse_in_plant_setup(
       followed_with("delay: 0.14 s", "wheelbase: 2.8 m, speed: {about: 20.8 m/s}"), "half.yaml");
   CHECK(setup.inputs[1].later == doctest::Approx(0.1346).epsilon(1e-3));

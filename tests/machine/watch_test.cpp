@@ -102,7 +102,8 @@ TEST_CASE("cusum_run_length: as published, and as counted") {
   CHECK_CLOSE(days / alarms, 50, 0.06, 0);
 }
 
-TEST_CASE("health_chart: the stated rate although mean, scatter and slope are learnt") {
+TEST_CASE("health_chart: the stated rate although mean, scatter and slope are learnt" *
+          doctest::test_suite("long")) {
   // Eight reference days for three numbers: a chart of known scatter would alarm far too often.
   constexpr int kRuns = 3000;
   const ChartOptions options{.reference = 8, .days = 60, .threshold = cusum_threshold(0.5, 60)};

@@ -111,7 +111,7 @@ TEST_CASE(
   CHECK(contains(refusal(folder.path() / "none.sqlite"), "there is no such file"));
 }
 
-TEST_CASE("--part and --simd say what would be right") {
+TEST_CASE("--part and --simd say what would be right" * doctest::test_suite("long")) {
   const auto says = [](const std::string& options) {
     const ProgramResult result = run_dashpot("sweep comfort " + options);
     CHECK(result.exit_code == 2);

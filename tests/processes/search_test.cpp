@@ -185,7 +185,8 @@ TEST_CASE("search: on a terminal the best so far stand in a table that redraws i
   CHECK(contains(result.output, "A\x1b[J"));  // some lines up, and away with what is there
 }
 
-TEST_CASE("search: what cannot be searched is told before the recordings are read") {
+TEST_CASE("search: what cannot be searched is told before the recordings are read" *
+          doctest::test_suite("long")) {
   const std::pair<std::string, std::string> cases[] = {
       {"", "--over is missing"},
       {"--over hidden=2,3 --model bingham", "unknown network 'bingham'; known: mlp_one_sensor"},

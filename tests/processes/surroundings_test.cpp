@@ -28,8 +28,8 @@ TEST_CASE("closed and full streams, a reader that leaves") {
   CHECK(fs::exists(results + "/report.html"));
 }
 
-TEST_CASE(
-    "a reader that has left is no full disk, whatever is said on the other stream meanwhile") {
+TEST_CASE("a reader that has left is no full disk, whatever is said on the other stream meanwhile" *
+          doctest::test_suite("long")) {
   // A pipe that nobody reads; the warning of this command comes behind its result.
   const TemporaryFolder folder;
   const std::string model = (folder.path() / "fit/models/bingham.json").string(),
@@ -52,7 +52,7 @@ TEST_CASE(
   CHECK_FALSE(contains(result.output, "disk"));
 }
 
-TEST_CASE("no HOME, a German locale, a terminal of 20 columns") {
+TEST_CASE("no HOME, a German locale, a terminal of 20 columns" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string rest = program_path() + " identify " + small_campaign().string() +
                            " --quiet --models bingham --output ";

@@ -55,7 +55,8 @@ TEST_CASE("the last cycle of a record; a record without one is refused") {
 }
 
 TEST_CASE(
-    "one cycle of each published record of the family: the paper's authors have 13333 samples") {
+    "one cycle of each published record of the family: the paper's authors have 13333 samples" *
+    doctest::test_suite("long")) {
   const std::filesystem::path folder = shared_data("family-dnn");
   if (folder.empty()) return;
   const Dataset dataset = load_dataset({folder});

@@ -40,7 +40,8 @@ double false_alarm_share(std::size_t dampers, double asked) {
 
 }  // namespace
 
-TEST_CASE("population: as many sound dampers are flagged as were asked for, or fewer") {
+TEST_CASE("population: as many sound dampers are flagged as were asked for, or fewer" *
+          doctest::test_suite("long")) {
   // Bonferroni and the larger of two spreads are on the safe side; where few dampers say what is
   // usual, their spread is uncertain, and Student's distribution allows for more than that.
   for (const std::size_t dampers : {std::size_t{20}, std::size_t{50}, std::size_t{400}}) {

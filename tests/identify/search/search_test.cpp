@@ -36,7 +36,8 @@ SearchOptions grid(const std::vector<std::string>& axes) {
 
 }  // namespace
 
-TEST_CASE("a trial's error is what rank gives the same network on the same folds") {
+TEST_CASE("a trial's error is what rank gives the same network on the same folds" *
+          doctest::test_suite("long")) {
   const SearchOptions options = grid({"hidden=2,4"});
   const SearchReport report = search(searched_campaign(), {}, options);
   REQUIRE(report.trials.size() == 2);
