@@ -52,9 +52,9 @@ InPlantSetup pushed_setup() {
 }
 
 InPlantOptions quick_options() {
-  InPlantOptions options{.starts = 3, .grade = ""};
+  InPlantOptions options{.starts = 2, .grade = ""};
   options.network.members = 1;
-  options.network.epochs = 250;
+  options.network.epochs = 120;
   return options;
 }
 
@@ -83,7 +83,7 @@ TEST_CASE(
 
 TEST_CASE("in plant: a hybrid and a bank beside a law, along which they learn" *
           doctest::test_suite("long")) {
-  const PlantRecording ride = pushed_on_yielding_spring(4);
+  const PlantRecording ride = pushed_on_yielding_spring(3);
   const std::vector<std::string> models{"hysteresis_network", "viscous_dahl", "dahl+network"};
   InPlantSetup setup = pushed_setup();
   setup.known = {{"stiffness", 4000}};

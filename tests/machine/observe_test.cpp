@@ -174,7 +174,7 @@ TEST_CASE("observe: a plant that states no sensor's noise is told what that does
 
 TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure" *
           doctest::test_suite("long")) {
-  const ObservedRide ride = spencer_ride(kObservedHalfCar, 4);
+  const ObservedRide ride = spencer_ride(kObservedHalfCar, 3);
   const ObserveOptions options;
   const ObserveReport alike =
       observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, options);
@@ -204,7 +204,8 @@ TEST_CASE("observe: the forces of both dampers of a half car, which are of anoth
   CHECK(judged(mixed, ride.truth, 0).first < 1.1 * judged(alike, ride.truth, 0).first);
 }
 
-TEST_CASE("observe: two dampers in one plant whose halves do not touch are as each is alone") {
+TEST_CASE("observe: two dampers in one plant whose halves do not touch are as each is alone" *
+          doctest::test_suite("long")) {
   const std::string halves =
       "plant: matrices\ncoordinates: [a, b]\n"
       "mass: [[100 kg, 0], [0, 150 kg]]\nstiffness: [[20 N/mm, 0], [0, 30 N/mm]]\n"
