@@ -2,7 +2,6 @@
 
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/rank.h"
-#include "sanitized.h"
 #include "studies/ride_rank/true_dampers.h"
 #include "support.h"
 
@@ -18,8 +17,8 @@ Dataset recorded(double mass) {
   BenchOptions bench;
   bench.motions = {{0.02, 1}, {0.01, 3}, {0.005, 8}, {0.002, 20}};
   bench.drive_levels = {0, 1, 2};
-  bench.sample_rate = kSanitized ? 250 : 500;
-  bench.cycles = kSanitized ? 1 : 2;
+  bench.sample_rate = 250;
+  bench.cycles = 1;
   Dataset data = run_virtual_bench(*make_true_damper(parts), DriveUnit::Ampere, bench);
 
   // The bench's motions are sines, which are their own acceleration.

@@ -102,7 +102,7 @@ TEST_CASE("with a bound the page shows what is possible, and no controller is be
           doctest::test_suite("long")) {
   RideStudyOptions options = small_study();
   options.frequencies = {8};
-  options.road_duration = 2;
+  options.road_duration = 1;
   options.bound = true;
   std::vector<double> shares;  // of the bound, as they were told
   options.monitor.on_progress = [&](const Progress& now) {
