@@ -3,8 +3,9 @@
    DASHPOT_FAULT        "allocation" or "write": what fails
    DASHPOT_FAULT_AT     which one fails, counted from 1 and from the start of main(); 0: none
    DASHPOT_FAULT_ON     "1": all after it fail, too, as when memory or disk stay full
-   DASHPOT_FAULT_COUNT  a file that gets the number of points where one could have failed
-   DASHPOT_FAULT_IN     the name of a program that is started from within, which it happens in
+   DASHPOT_FAULT_COUNT  a file that gets the numbers of allocations and of writes that could have
+   failed DASHPOT_FAULT_IN     the name of a program that is started from within, which it happens
+   in
 
    A write is a call of write, pwrite, ftruncate, fsync, fdatasync, close or rename on anything but
    the standard streams. Other programs that are started from within are left alone. */
@@ -28,16 +29,17 @@ void* __libc_realloc(void* old, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
 static atomic_int active;      /* between the start and the end of main() */
-static atomic_long points;     /* that have been passed */
+static atomic_long points[2];  /* of allocations and of writes that have been passed */
 static int of_writes, goes_on; /* what fails, and whether all after it do */
 static long fails_at;
 static char count_file[4096];
 static int (*program_main)(int, char**, char**);
 
 static int fails(int is_write) {
-  if (!active || is_write != of_writes) return 0;
-  const long point = atomic_fetch_add(&points, 1) + 1;
-  return fails_at > 0 && (point == fails_at || (goes_on && point > fails_at));
+  if (!active) return 0;
+  const long point = atomic_fetch_add(&points[is_write], 1) + 1;
+  return is_write == of_writes && fails_at > 0 &&
+         (point == fails_at || (goes_on && point > fails_at));
 }
 
 /* ---- Allocations */
@@ -127,7 +129,7 @@ static long number_of(const char* name) {
   return text ? atol(text) : 0;
 }
 
-/* Whether the number of points is told, where it is asked for. */
+/* Whether the numbers of points are told, where they are asked for. */
 static int tells_points(void) {
   active = 0;
   if (!count_file[0]) return 1;
@@ -135,8 +137,8 @@ static int tells_points(void) {
   if (getrlimit(RLIMIT_FSIZE, &size) == 0)
     size.rlim_cur = size.rlim_max, setrlimit(RLIMIT_FSIZE, &size);
   const int to = open(count_file, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  char text[32];
-  const int length = snprintf(text, sizeof text, "%ld\n", (long)points);
+  char text[64];
+  const int length = snprintf(text, sizeof text, "%ld %ld\n", (long)points[0], (long)points[1]);
   return to >= 0 && write(to, text, (size_t)length) == length;
 }
 
