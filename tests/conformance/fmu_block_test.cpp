@@ -40,17 +40,18 @@ TEST_CASE("FMUs of every controller and inverse give the library's commands" *
           doctest::test_suite("long")) {
   if (!has_compiler()) return;
   std::vector<BlockCase> cases = block_cases();
-  // Blocks of the same inputs and commands differ in their C alone, which is run for each without
-  // an FMU: one of them is enough.
-  std::set<std::vector<std::string>> known;
+  // Blocks of as many inputs and commands differ in names and in their C alone, which is run for
+  // each without an FMU: one of them is enough.
+  std::set<std::vector<std::size_t>> known;
   std::erase_if(cases, [&](const BlockCase& one) {
     const CBlock block = one.block({});
-    std::vector<std::string> ports;
+    std::vector<std::size_t> ports;
     for (const std::vector<CPort>& side : {block.inputs, block.commands})
-      for (const CPort& port : side) ports.push_back(port.at(0) + std::to_string(port.count));
+      for (const CPort& port : side) ports.push_back(port.count);
     return !known.insert(ports).second;
   });
-  CHECK(cases.size() >= 8);
+  MESSAGE(cases.size() << " of them");
+  CHECK(cases.size() >= 5);
   std::vector<std::string> archives(cases.size());
   parallel_for(cases.size(), 0,
                [&](std::size_t k) { archives[k] = fmu_of(cases[k].block, k % 2 == 0 ? 2 : 3); });

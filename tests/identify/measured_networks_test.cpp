@@ -28,7 +28,8 @@ TEST_CASE("hysteresis network: one fold of each set of recordings" * doctest::te
   };
   for (const Gate& gate :
        {Gate{"nees-2012-1158", "", 0.8, 1}, Gate{"sysidentpy-simulated", "", 0.25, 1},
-        Gate{"utfpr", "current=1.98", 1.6, 1}, Gate{"utfsm", "condition=25.0 mm 0.5 Hz", 2.2, 2}}) {
+        Gate{"utfpr", "current=1.98", 1.6, 1},
+        Gate{"utfsm", "condition=25.0 mm 0.5 Hz", 2.2, {}}}) {
     const auto folder = recordings(gate.folder);
     if (folder.empty()) return;
     CAPTURE(gate.folder);
