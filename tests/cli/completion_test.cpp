@@ -20,7 +20,7 @@ std::string bash_completion(const std::string& words, int count) {
 
 }  // namespace
 
-TEST_CASE("the completion scripts are valid in their shells" * doctest::test_suite("long")) {
+TEST_CASE("the completion scripts are valid in their shells") {
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     CAPTURE(shell);
     const ProgramResult script = run_dashpot("completion " + shell);
