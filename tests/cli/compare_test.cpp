@@ -24,9 +24,9 @@ const Campaigns& campaigns() {
           run_dashpot(bench + "--sample-rate 200 --seed " + seed + " --output " + to);
       REQUIRE_MESSAGE(result.exit_code == 0, result.output);
     }
-    const ProgramResult fit =
-        run_dashpot("identify " + all.before + " --models bingham,tanh_kwok --no-report --output " +
-                    (all.folder.path() / "fit").string());
+    const ProgramResult fit = run_dashpot(
+        "identify " + all.before + " --models bingham,tanh_kwok --starts 1 --no-report --output " +
+        (all.folder.path() / "fit").string());
     REQUIRE_MESSAGE(fit.exit_code == 0, fit.output);
     return true;
   }();

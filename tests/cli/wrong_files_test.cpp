@@ -46,7 +46,8 @@ TEST_CASE("several files and folders are one dataset, each file once") {
   CHECK(contains(twice.output, "is the same file as"));
 }
 
-TEST_CASE("a file of another kind is told what it is, and what the command wants") {
+TEST_CASE("a file of another kind is told what it is, and what the command wants" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string recording = folder.write("a_1A.csv", csv()).string(),
                     dataset = folder.write("dataset.yaml", "files:\n  - match: a.csv\n").string(),
