@@ -1,11 +1,14 @@
-// Prints the alarm rates of docs/in-plant.md: a damper that is watched over a thousand days.
+// Prints the alarm rates of docs/in-plant.md: dampers that are watched over hundreds of days.
 //
-//   bench_watch days STORE HEALTHY FADED    makes virtual days and estimates each (resumes)
-//   bench_watch rates STORE                 what the charts say of them
+//   bench_watch days STORE HEALTHY FADED [CAR]  makes virtual days and estimates each (resumes)
+//   bench_watch rates STORE [CAR]               what the charts say of them
 //
-// The truth is the shipped quarter car with spencer1997, whose structure the model (tanh_kwok,
-// identified on three rides with the road measured) does not have. From day to day the load, the
-// road, the temperature and the drive differ, all at random.
+// CAR: quarter (unless it is said), half: a half car with its roads measured and four sensors, of
+// which two are the dampers' own, body: one with an accelerometer on its body alone.
+//
+// The truth is spencer1997, whose structure the model (tanh_kwok, identified on three rides of a
+// quarter car with the road measured) does not have. From day to day the load, the road, the
+// temperature and the drive differ, all at random.
 
 #include "dashpot/machine/watch.h"
 
@@ -33,8 +36,8 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kMass = 387, kSpring = 37300, kGravity = 9.81,
-                 kDayLength = 20;  // kg, N/m, m/s^2, s
+constexpr double kMass = 387, kSpring = 37300, kGravity = 9.81;  // kg, N/m, m/s^2
+constexpr double kHalfMass = 690;                                // kg
 constexpr std::size_t kReference = 20;
 constexpr StoreFormat kDaysFormat{"bench_watch", 1, "give it another name"};
 
@@ -57,15 +60,87 @@ std::string car_text(bool in_workshop) {
          "voltage: coil\n";
 }
 
+/// The half car on its days, both roads measured; its load is unknown.
+std::string half_car_text(bool has_own_sensors) {
+  return std::string(
+             "plant: half_car\n"
+             "parameters:\n"
+             "  mass: {about: 700 kg, from: 500 kg, to: 1000 kg}\n"
+             "  inertia: 1222 kg*m^2\n"
+             "  front_wheel_mass: 40 kg\n"
+             "  rear_wheel_mass: 45 kg\n"
+             "  front_stiffness: 17 kN/m\n"
+             "  rear_stiffness: 22 kN/m\n"
+             "  front_tyre_stiffness: 200 kN/m\n"
+             "  rear_tyre_stiffness: 200 kN/m\n"
+             "  front_distance: 1.3 m\n"
+             "  rear_distance: 1.5 m\n"
+             "inputs:\n"
+             "  - {channel: road_front, kind: ground, at: front, noise: 0.2 mm}\n"
+             "  - {channel: road_rear, kind: ground, at: rear, noise: 0.2 mm}\n"
+             "sensors:\n"
+             "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n") +
+         (has_own_sensors
+              ? "  - {channel: pitch, quantity: velocity, at: pitch, noise: 0.3 deg/s}\n"
+                "  - {channel: level_front, quantity: deflection, at: front, noise: 0.2 mm}\n"
+                "  - {channel: level_rear, quantity: deflection, at: rear, noise: 0.2 mm}\n"
+              : "") +
+         "voltage: coil\n";
+}
+
+/// The days of one kind: healthy, or with a fault.
+struct DayKind {
+  std::string name;
+  double force = 0, rear_force = 0;  // shares by which the forces have become less
+  bool has_gas = true;               // else its accumulator is empty
+  std::string faded = {};            // of several dampers: the strut of the one that did
+};
+
+/// A car that is watched.
+struct WatchedCar {
+  std::string text;  // on its days
+  double length;               // s, of a day
+  std::size_t every = 1;       // sample of 500 Hz that is recorded
+  bool is_half = false;
+  WatchOptions options;
+  std::vector<DayKind> kinds;
+};
+
+WatchedCar watched_car(const std::string& name) {
+  WatchedCar car{
+      .text = car_text(false),
+      .length = 20,
+      .options = {.level = "level", .known = {"temperature"}, .chart = {.reference = kReference}},
+      .kinds = {{"healthy"},
+                {"force -10 %", 0.1},
+                {"force -20 %", 0.2},
+                {"force -30 %", 0.3},
+                {"gas lost", 0, 0, false}}};
+  if (name == "quarter") return car;
+  if (name != "half" && name != "body") throw Error("car", "'" + name + "' is none of them", "half");
+  car.text = half_car_text(name == "half");
+  car.length = 6;
+  car.every = 2;
+  car.is_half = true;
+  car.options.level = "";
+  car.kinds = {{"healthy"},
+               {.name = "front -10 %", .force = 0.1, .faded = "front"},
+               {.name = "front -20 %", .force = 0.2, .faded = "front"},
+               {.name = "front -30 %", .force = 0.3, .faded = "front"},
+               {.name = "rear -10 %", .rear_force = 0.1, .faded = "rear"},
+               {.name = "rear -20 %", .rear_force = 0.2, .faded = "rear"},
+               {.name = "rear -30 %", .rear_force = 0.3, .faded = "rear"}};
+  return car;
+}
+
 /// What a day is like, which nobody knows but for the temperature.
 struct DayTruth {
-  double mass = kMass, roughness = 0, temperature = 20;  // kg, m^3, deg C
-  double force = 0;     // share by which the damper's force has become less
-  bool has_gas = true;  // else its accumulator is empty
+  double load = 0, roughness = 0, temperature = 20;  // kg, m^3, deg C
 };
 
 /// spencer1997, thinner where it is warm: its dashpots by 0.6 % per kelvin, its yield by 0.1 %.
-std::shared_ptr<const DamperModel> true_damper(const DayTruth& day) {
+std::shared_ptr<const DamperModel> true_damper(const DayTruth& day, double less = 0,
+                                               bool has_gas = true) {
   const LawModel as_published = load_parameters("spencer1997");
   Dependence parameters = as_published.parameters();
   const double warmer = day.temperature - 20;
@@ -75,12 +150,12 @@ std::shared_ptr<const DamperModel> true_damper(const DayTruth& day) {
   scale("c0", 1 - 0.006 * warmer);
   scale("c1", 1 - 0.006 * warmer);
   scale("alpha", 1 - 0.001 * warmer);
-  if (!day.has_gas) scale("k1", 0);
+  if (!has_gas) scale("k1", 0);
   const auto damper = std::make_shared<LawModel>(
       as_published.law(), parameters, as_published.drive_unit(), as_published.lag_rate());
   return std::make_shared<WornDamper>(
       mounted(damper, 1),
-      std::vector<WornDamper::Amount>{{&find_wear("force", "bench"), -day.force}});
+      std::vector<WornDamper::Amount>{{&find_wear("force", "bench"), -less}});
 }
 
 PlantRecording as_recording(const VirtualRide& ride, const std::string& name) {
@@ -90,34 +165,50 @@ PlantRecording as_recording(const VirtualRide& ride, const std::string& name) {
           .channels = ride.recorded.channels};
 }
 
-DayTruth day_truth(std::uint64_t seed, double force, bool has_gas) {
+DayTruth day_truth(std::uint64_t seed) {
   Random random(seed);
-  DayTruth day{.force = force, .has_gas = has_gas};
-  day.mass = kMass + 25 * random.normal();
+  DayTruth day;
+  day.load = 25 * random.normal();
   day.roughness = road_roughness('B') * std::pow(2.0, random.uniform(-1, 3));
   day.temperature = 20 + 8 * random.normal();
   return day;
 }
 
-PlantRecording record_day(const DayTruth& truth, std::uint64_t seed, const std::string& name) {
-  InPlantSetup setup = parse_in_plant_setup(car_text(false), "car");
+PlantRecording record_day(const WatchedCar& car, const DayTruth& truth, const DayKind& kind,
+                          std::uint64_t seed, const std::string& name) {
+  InPlantSetup setup = parse_in_plant_setup(car.text, "car");
   setup.unknown.clear();
-  setup.known.emplace_back("sprung_mass", truth.mass);
+  if (car.is_half)
+    setup.known.emplace_back("mass", kHalfMass + 2 * truth.load);
+  else
+    setup.known.emplace_back("sprung_mass", kMass + truth.load);
   const VirtualCampaignOptions options{
-      .duration = kDayLength,
+      .duration = car.length,
       .levels = {0.5, 1, 1.5},
       .hold = 2,
       .road = "iso8608_fft,roughness=" + format_exact(truth.roughness) + ",speed=20m/s",
       .seed = seed};
-  const std::shared_ptr<const DamperModel> damper = true_damper(truth);
-  PlantRecording recording = as_recording(virtual_campaign(setup, *damper, options).front(), name);
+  const auto front = true_damper(truth, kind.force, kind.has_gas),
+             rear = true_damper(truth, kind.rear_force);
+  std::vector<const DamperModel*> dampers = {front.get()};
+  if (car.is_half) dampers.push_back(rear.get());
+  PlantRecording recording = as_recording(virtual_campaign(setup, dampers, options).front(), name);
+
+  for (Channel& channel : recording.channels) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < recording.samples; k += car.every)
+      channel.samples[kept++] = channel.samples[k];
+    channel.samples.resize(kept);
+  }
+  recording.samples = recording.channels.front().samples.size();
+  recording.sample_time *= static_cast<double>(car.every);
 
   // The static level: of the load, and of the gas force where it is lost.
-  const double gas = truth.has_gas ? 0 : force_at_rest(load_parameters("spencer1997"), 1);
+  const double gas = kind.has_gas ? 0 : force_at_rest(load_parameters("spencer1997"), 1);
   for (Channel& channel : recording.channels)
     if (channel.name == "level")
       for (double& value : channel.samples)
-        value -= ((truth.mass - kMass) * kGravity + std::abs(gas)) / kSpring;
+        value -= (truth.load * kGravity + std::abs(gas)) / kSpring;
   Random random(seed + 700);
   const double shown = truth.temperature + random.normal();
   recording.channels.push_back({.name = "temperature",
@@ -136,41 +227,19 @@ InPlantReport workshop() {
   truth.known.emplace_back("tyre_stiffness", 295200);
   std::vector<PlantRecording> rides;
   for (const VirtualRide& ride :
-       virtual_campaign(truth, *true_damper({.roughness = 0}),
+       virtual_campaign(truth, *true_damper({}),
                         {.levels = {0, 1, 2}, .road = "iso8608,class=C,speed=20m/s", .seed = 77}))
     rides.push_back(as_recording(ride, ride.recorded.name));
   return identify_in_plant(find_law("tanh_kwok"), setup, rides, {});
-}
-
-WatchOptions watch_options() {
-  return {.wears = {"force"},
-          .level = "level",
-          .known = {"temperature"},
-          .chart = {.reference = kReference}};
-}
-
-/// The days of one kind: healthy, or with a fault.
-struct DayKind {
-  std::string name;
-  double force = 0;
-  bool has_gas = true;
-};
-const std::vector<DayKind>& day_kinds() {
-  static const std::vector<DayKind> kKinds = {{"healthy"},
-                                              {"force -10 %", 0.1},
-                                              {"force -20 %", 0.2},
-                                              {"force -30 %", 0.3},
-                                              {"gas lost", 0, false}};
-  return kKinds;
 }
 
 std::uint64_t day_seed(std::size_t kind, std::size_t day) {
   return 1 + 1000003 * kind + 7919 * day;
 }
 
-PlantRecording make_day(std::size_t kind, std::size_t day) {
-  const DayKind& of = day_kinds()[kind];
-  return record_day(day_truth(day_seed(kind, day) + 11, of.force, of.has_gas), day_seed(kind, day),
+PlantRecording make_day(const WatchedCar& car, std::size_t kind, std::size_t day) {
+  const DayKind& of = car.kinds[kind];
+  return record_day(car, day_truth(day_seed(kind, day) + 11), of, day_seed(kind, day),
                     fmt::format("{} {}", of.name, day));
 }
 
@@ -179,38 +248,39 @@ std::string key_of(std::size_t kind, std::size_t day) {
 }
 
 /// The watched plant, made on the first three healthy days; model and plant are kept in the store.
-WatchedPlant prepared(Store& store) {
+WatchedPlant prepared(const WatchedCar& car, Store& store) {
   if (!store.load("model")) {
     const InPlantReport report = workshop();
     const InPlantSetup setup = parse_in_plant_setup(car_text(true), "car");
     store.save("model", format_model(found_damper(report, setup, 0.002)));
   }
   ModelFile file = parse_model(*store.load("model"), "model");
+  const InPlantSetup setup = parse_in_plant_setup(car.text, "car");
   const std::shared_ptr<const DamperModel> damper = std::move(file.model);
-  const WatchOptions options = watch_options();
-  const InPlantSetup setup = parse_in_plant_setup(car_text(false), "car");
+  const ObservedDampers dampers(setup.dampers(), {damper, file.domain});
   if (const auto found = store.load("found"))
-    return watched_again(damper, file.domain, setup, parse_json(*found, "found"), options);
+    return watched_again(dampers, setup, parse_json(*found, "found"), car.options);
   std::vector<PlantRecording> first;
-  for (std::size_t d = 0; d < 3; ++d) first.push_back(make_day(0, d));
-  const WatchedPlant watched = watched_plant(damper, file.domain, setup, first, options);
+  for (std::size_t d = 0; d < 3; ++d) first.push_back(make_day(car, 0, d));
+  const WatchedPlant watched = watched_plant(dampers, setup, first, car.options);
   store.save("found", format_json(found_of(watched)));
   return watched;
 }
 
-void run_days(const std::string& path, const std::vector<std::size_t>& counts) {
+void run_days(const WatchedCar& car, const std::string& path,
+              const std::vector<std::size_t>& counts) {
   Store store(path, kDaysFormat);
-  const WatchedPlant watched = prepared(store);
+  const WatchedPlant watched = prepared(car, store);
   fmt::print(stderr, "{}\n", format_json(found_of(watched)));
   std::vector<std::pair<std::size_t, std::size_t>> todo;
-  for (std::size_t kind = day_kinds().size(); kind-- > 0;)
+  for (std::size_t kind = car.kinds.size(); kind-- > 0;)
     for (std::size_t day = 0; day < counts[kind == 0 ? 0 : 1]; ++day)
       if (!store.load(key_of(kind, day))) todo.emplace_back(kind, day);
   parallel_for(todo.size(), 0, [&](std::size_t k) {
     const auto [kind, day] = todo[k];
-    const PlantRecording recording = make_day(kind, day);
+    const PlantRecording recording = make_day(car, kind, day);
     const double started = cpu_seconds();
-    const WatchedDay watched_day = watch_day(watched, recording, watch_options());
+    const WatchedDay watched_day = watch_day(watched, recording, car.options);
     store.save(key_of(kind, day), format_json(to_json(watched_day)));
     if (k % 20 == 0)
       fmt::print(stderr, "{}: {:.2f} s, {} iterations\n", recording.name, cpu_seconds() - started,
@@ -219,8 +289,8 @@ void run_days(const std::string& path, const std::vector<std::size_t>& counts) {
 }
 
 /// The days of each kind that a store holds.
-std::vector<std::vector<WatchedDay>> days_of(const Store& store) {
-  std::vector<std::vector<WatchedDay>> days(day_kinds().size());
+std::vector<std::vector<WatchedDay>> days_of(const WatchedCar& car, const Store& store) {
+  std::vector<std::vector<WatchedDay>> days(car.kinds.size());
   for (std::size_t kind = 0; kind < days.size(); ++kind)
     for (std::size_t day = 0; const auto text = store.load(key_of(kind, day)); ++day)
       days[kind].push_back(watched_day_from_json(parse_json(*text, key_of(kind, day))));
@@ -228,29 +298,29 @@ std::vector<std::vector<WatchedDay>> days_of(const Store& store) {
 }
 
 /// What the charts need to know of the plant.
-WatchedPlant charted() {
-  const WatchOptions options = watch_options();
-  WatchedPlant watched{.setup = parse_in_plant_setup(car_text(false), "car"),
-                       .level = options.level};
-  for (const std::string& name : options.wears) watched.wears.push_back(&find_wear(name, "bench"));
+WatchedPlant charted(const WatchedCar& car) {
+  WatchedPlant watched{.setup = parse_in_plant_setup(car.text, "car"), .level = car.options.level};
+  for (const std::string& name : car.options.wears) watched.wears.push_back(&find_wear(name, "bench"));
   return watched;
 }
 
 /// Charts of which each shares the stated rate, by thresholds that are made once.
 class Charts {
  public:
-  explicit Charts(double stated) : options_(watch_options()), watched_(charted()) {
-    const auto charts = static_cast<double>(watched_.wears.size() + 1);
+  Charts(const WatchedCar& car, double stated) : options_(car.options), watched_(charted(car)) {
+    const auto charts = static_cast<double>(watched_quantities(watched_).size());
     options_.chart.threshold = cusum_threshold(0.5 * options_.chart.shift, stated * charts);
+  }
+  std::vector<WatchedQuantity> of(const std::vector<WatchedDay>& days) const {
+    return watch_charts(watched_, days, options_);
   }
   /// The first day of an alarm, and the quantity that it is of; nothing where there is none.
   std::optional<std::pair<std::size_t, std::string>> alarm(
       const std::vector<WatchedDay>& days) const {
-    std::optional<std::pair<std::size_t, std::string>> first;
-    for (const WatchedQuantity& q : watch_charts(watched_, days, options_))
-      if (q.chart.alarm && (!first || *q.chart.alarm < first->first))
-        first = {*q.chart.alarm, q.name};
-    return first;
+    const std::vector<WatchedQuantity> quantities = of(days);
+    const WatchedQuantity* first = first_alarm_of(quantities);
+    if (!first) return std::nullopt;
+    return std::pair(*first->chart.alarm, first->name);
   }
 
  private:
@@ -264,8 +334,8 @@ std::vector<WatchedDay> shuffled(std::vector<WatchedDay> days, Random& random) {
 }
 
 /// How much each number scatters from one healthy day to another, beside what a day says itself.
-void print_scatter(const std::vector<WatchedDay>& days) {
-  const std::vector<WatchedQuantity> quantities = watch_charts(charted(), days, watch_options());
+void print_scatter(const WatchedCar& car, const std::vector<WatchedDay>& days) {
+  const std::vector<WatchedQuantity> quantities = watch_charts(charted(car), days, car.options);
   for (const WatchedQuantity& q : quantities) {
     double mean = 0, square = 0, own = 0;
     const auto count = static_cast<double>(days.size());
@@ -282,10 +352,10 @@ void print_scatter(const std::vector<WatchedDay>& days) {
 }
 
 /// Alarms of healthy days in random orders, each run to its first alarm or to its end.
-void print_false_alarms(const std::vector<WatchedDay>& healthy) {
+void print_false_alarms(const WatchedCar& car, const std::vector<WatchedDay>& healthy) {
   constexpr int kRuns = 1000;
   for (const double stated : {50.0, 100.0, 300.0, 1000.0}) {
-    const Charts charts(stated);
+    const Charts charts(car, stated);
     std::vector<std::optional<std::pair<std::size_t, std::string>>> first(kRuns);
     parallel_for(kRuns, 0, [&](std::size_t run) {
       Random random(run + 1);
@@ -305,32 +375,66 @@ void print_false_alarms(const std::vector<WatchedDay>& healthy) {
   }
 }
 
-/// Days until the alarm where the damper is healthy for 50 days and then has the fault.
-void print_delays(const std::vector<std::vector<WatchedDay>>& days, std::size_t kind,
-                  double stated) {
+/// What the days of each kind say of each quantity: means, and scatter from day to day.
+void print_amounts(const WatchedCar& car, const std::vector<std::vector<WatchedDay>>& days) {
+  const std::vector<WatchedQuantity> quantities = watched_quantities(charted(car));
+  for (std::size_t kind = 0; kind < days.size(); ++kind) {
+    fmt::print("{:<12}", car.kinds[kind].name);
+    for (const WatchedQuantity& q : quantities) {
+      double mean = 0, square = 0, count = 0;
+      for (const WatchedDay& day : days[kind]) {
+        if (!day.estimate.converged) continue;
+        mean += day.estimate.wear[q.place];
+        square += std::pow(day.estimate.wear[q.place], 2);
+        ++count;
+      }
+      mean /= count;
+      fmt::print(" {} {:.4f} +- {:.4f}", q.name, mean, std::sqrt(square / count - mean * mean));
+    }
+    fmt::print(" ({} days)\n", days[kind].size());
+  }
+}
+
+/// Days until the alarm where the damper is healthy for 50 days and then has the fault; of several
+/// dampers, whether it is the one whose alarm comes, and whether another's follows.
+void print_delays(const WatchedCar& car, const std::vector<std::vector<WatchedDay>>& days,
+                  std::size_t kind, double stated) {
   constexpr int kRuns = 500;
-  constexpr std::size_t kHealthy = 50, kMost = 200;
-  const Charts charts(stated);
-  std::vector<double> delays(kRuns);
+  constexpr std::size_t kHealthy = 50, kMost = 200, kFollows = 20;
+  const Charts charts(car, stated);
+  std::vector<double> delays(kRuns), falls(kRuns);
   std::vector<std::string> names(kRuns);
+  std::vector<int> follows(kRuns);
   parallel_for(kRuns, 0, [&](std::size_t run) {
     Random random(run + 1);
     std::vector<WatchedDay> sequence = shuffled(days[0], random);
     sequence.resize(kHealthy);
     for (std::size_t d = 0; d < kMost; ++d)
       sequence.push_back(days[kind][random.index(days[kind].size())]);
-    const auto alarm = charts.alarm(sequence);
-    delays[run] = alarm ? static_cast<double>(alarm->first) - kHealthy + 1 : INFINITY;
-    if (alarm) names[run] = alarm->second;
+    const std::vector<WatchedQuantity> quantities = charts.of(sequence);
+    const WatchedQuantity* alarm = first_alarm_of(quantities);
+    delays[run] = alarm ? static_cast<double>(*alarm->chart.alarm) - kHealthy + 1 : INFINITY;
+    if (!alarm) return;
+    names[run] = alarm->name;
+    falls[run] = alarm->chart.fall;
+    for (const WatchedQuantity& q : quantities)
+      follows[run] |= q.strut != alarm->strut && q.chart.alarm &&
+                      *q.chart.alarm <= *alarm->chart.alarm + kFollows;
   });
   std::map<std::string, int> by;
   std::vector<double> late;
-  int early = 0;
+  int early = 0, right = 0, followed = 0, found = 0;
+  double fall = 0;
   for (std::size_t k = 0; k < delays.size(); ++k) {
     early += delays[k] <= 0;
     if (delays[k] <= 0) continue;
     late.push_back(delays[k]);
-    if (!names[k].empty()) ++by[names[k]];
+    if (names[k].empty()) continue;
+    ++by[names[k]];
+    ++found;
+    right += names[k].starts_with(car.kinds[kind].faded);
+    followed += follows[k];
+    fall += falls[k];
   }
   std::ranges::sort(late);
   const auto quantile = [&](double p) {
@@ -339,35 +443,42 @@ void print_delays(const std::vector<std::vector<WatchedDay>>& days, std::size_t 
   fmt::print(
       "{:<12} one in {}: days until the alarm: median {}, 90 % within {}, latest {}; before "
       "the fault {} of {}",
-      day_kinds()[kind].name, stated, quantile(0.5), quantile(0.9), late.back(), early, kRuns);
+      car.kinds[kind].name, stated, quantile(0.5), quantile(0.9), late.back(), early, kRuns);
   for (const auto& [name, times] : by) fmt::print(", {} {}", name, times);
+  if (car.is_half)
+    fmt::print("; right damper {} of {}, another's alarm within {} days {}, fall told {:.3f}", right,
+               found, kFollows, followed, fall / found);
   fmt::print("\n");
 }
 
-void print_rates(const std::string& path) {
+void print_rates(const WatchedCar& car, const std::string& path) {
   const Store store(path, kDaysFormat);
-  const std::vector<std::vector<WatchedDay>> days = days_of(store);
+  const std::vector<std::vector<WatchedDay>> days = days_of(car, store);
   if (days[0].size() <= 2 * kReference) throw Error(path, "holds too few healthy days");
   std::size_t converged = 0;
   for (const WatchedDay& day : days[0]) converged += day.estimate.converged;
   fmt::print("{} healthy days, {} converged\n", days[0].size(), converged);
-  print_scatter(days[0]);
-  print_false_alarms(days[0]);
+  print_scatter(car, days[0]);
+  if (car.is_half) print_amounts(car, days);
+  print_false_alarms(car, days[0]);
   for (std::size_t kind = 1; kind < days.size(); ++kind)
     for (const double stated : {100.0, 1000.0})
-      if (!days[kind].empty()) print_delays(days, kind, stated);
+      if (!days[kind].empty()) print_delays(car, days, kind, stated);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
-  if (words.size() == 4 && words[0] == "days") {
-    run_days(words[1], {std::stoul(words[2]), std::stoul(words[3])});
-  } else if (words.size() == 2 && words[0] == "rates") {
-    print_rates(words[1]);
+  if ((words.size() == 4 || words.size() == 5) && words[0] == "days") {
+    run_days(watched_car(words.size() == 5 ? words[4] : "quarter"), words[1],
+             {std::stoul(words[2]), std::stoul(words[3])});
+  } else if ((words.size() == 2 || words.size() == 3) && words[0] == "rates") {
+    print_rates(watched_car(words.size() == 3 ? words[2] : "quarter"), words[1]);
   } else {
-    fmt::print(stderr, "usage: bench_watch days STORE HEALTHY FADED, or bench_watch rates STORE\n");
+    fmt::print(stderr,
+               "usage: bench_watch days STORE HEALTHY FADED [CAR], or bench_watch rates STORE "
+               "[CAR]; CAR: quarter, half, body\n");
     return 2;
   }
   return 0;

@@ -348,14 +348,37 @@ DASHPOT_API dashpot_status dashpot_observe(const dashpot_model* model, const das
                                            const dashpot_monitor* monitor,
                                            dashpot_recordings** estimates, char** report);
 
-/// A damper that works in a plant, followed from day to day: `dashpot watch`. One ride per day, in
-/// their order. Options (null: none): {"tracked": ["force"], "level": "CHANNEL", "known":
+/// The damper in one strut of a plant, as "front".
+typedef struct {
+  const char* strut;
+  const dashpot_model* model;
+} dashpot_placed_model;
+
+/// dashpot_observe() where dampers are not alike: one in each strut, in any order.
+DASHPOT_API dashpot_status dashpot_observe_dampers(const dashpot_placed_model* dampers,
+                                                   size_t count, const dashpot_rides* rides,
+                                                   const char* plant, const char* options,
+                                                   const dashpot_monitor* monitor,
+                                                   dashpot_recordings** estimates, char** report);
+
+/// A damper that works in a plant, followed from day to day: `dashpot watch`. In a plant with
+/// several this one stands in each strut, each is followed ("front_force"), and the rate of false
+/// alarms is that of all their charts together. One ride per day, in their order. Options (null:
+/// none): {"tracked": ["force"], "level": "CHANNEL", "known":
 /// ["CHANNEL"], "reference": 20, "false_alarms": 0.001, "threads": 0, "state": ...}. The report is
 /// that of the command, and "state": given to the next call, its days stand before the new ones and
-/// are not looked at again.
+/// are not looked at again. "warnings" are sentences: names that tell another order of the days
+/// than they are given in, dampers that the sensors hardly tell apart; those that they cannot tell
+/// apart are DASHPOT_BAD_INPUT.
 DASHPOT_API dashpot_status dashpot_watch(const dashpot_model* model, const dashpot_rides* rides,
                                          const char* plant, const char* options,
                                          const dashpot_monitor* monitor, char** report);
+
+/// dashpot_watch() where dampers are not alike: one in each strut, in any order.
+DASHPOT_API dashpot_status dashpot_watch_dampers(const dashpot_placed_model* dampers, size_t count,
+                                                 const dashpot_rides* rides, const char* plant,
+                                                 const char* options,
+                                                 const dashpot_monitor* monitor, char** report);
 
 #ifdef __cplusplus
 }

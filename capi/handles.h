@@ -34,6 +34,7 @@ struct dashpot_ranking {
 
 struct dashpot_rides {
   std::vector<dashpot::RawTable> tables;
+  std::vector<std::string> names = {};  ///< of the tables, as the caller gave them; empty: not
 };
 
 namespace dashpot::capi {

@@ -3,6 +3,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/day_order.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
@@ -82,17 +83,63 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
   *model = new dashpot_model(std::move(file));
 }
 
-void observe_rides(const dashpot_model& model, const dashpot_rides* rides, const char* plant,
+/// The models of a plant's dampers, in the order of its struts.
+using PlacedModels = std::vector<const dashpot_model*>;
+
+/// This model in each strut.
+PlacedModels in_each_strut(const dashpot_model* model, const InPlantSetup& setup) {
+  require(model, "model");
+  require_setup(setup);
+  return PlacedModels(setup.dampers(), model);
+}
+
+/// A model for each strut, by its name.
+PlacedModels by_struts(const dashpot_placed_model* dampers, size_t count,
+                       const InPlantSetup& setup) {
+  require(dampers, "dampers");
+  require_setup(setup);
+  const std::vector<std::string> struts = observer_names(setup).struts;
+  PlacedModels models(struts.size());
+  for (size_t k = 0; k < count; ++k) {
+    require(dampers[k].strut, "strut");
+    require(dampers[k].model, "model");
+    const auto place = std::ranges::find(struts, dampers[k].strut) - struts.begin();
+    if (place == std::ssize(struts))
+      throw Error("dampers", "the plant has no damper '" + std::string(dampers[k].strut) + "'",
+                  suggest(dampers[k].strut, struts));
+    if (models[static_cast<size_t>(place)])
+      throw Error("dampers",
+                  "the damper '" + struts[static_cast<size_t>(place)] + "' has two models",
+                  "one of each damper");
+    models[static_cast<size_t>(place)] = dampers[k].model;
+  }
+  for (size_t d = 0; d < struts.size(); ++d)
+    if (!models[d])
+      throw Error("dampers", "the damper '" + struts[d] + "' has no model",
+                  "one for each of " + join(struts, ", "));
+  return models;
+}
+
+/// The plant's dampers, and the noise that an identification of plant or models found.
+ObservedDampers placed(const PlacedModels& models, InPlantSetup& setup) {
+  ObservedDampers dampers;
+  for (const dashpot_model* model : models) {
+    require_plant_drive(setup, model->file, model->name);
+    setup = with_identified_noise(std::move(setup), model->file, "the model");
+    dampers.push_back({model->damper->with_offset(0), model->file.domain});
+  }
+  return dampers;
+}
+
+void observe_rides(const PlacedModels& models, const dashpot_rides* rides, InPlantSetup setup,
                    ObserveOptions options, const dashpot_monitor* monitor,
                    dashpot_recordings** estimates, char** report) {
-  const InPlantSetup setup = with_identified_noise(setup_of(plant), model.file, "the model");
+  const ObservedDampers dampers = placed(models, setup);
   const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
-  require_plant_drive(setup, model.file, model.name);
-  const std::shared_ptr<const DamperModel> damper = model.damper->with_offset(0);
   ObserveReport observed;
   run_watched(monitor, [&](const Monitor& watched) {
     options.monitor = watched;
-    observed = observe(damper, model.file.domain, setup, recordings, options);
+    observed = observe(dampers, setup, recordings, options);
   });
 
   auto made = std::make_unique<dashpot_recordings>();
@@ -105,12 +152,17 @@ void observe_rides(const dashpot_model& model, const dashpot_rides* rides, const
 }
 
 /// What the days of a state depend on, by name.
-Value basis_of(const dashpot_model& model, const InPlantSetup& setup, const WatchOptions& options) {
-  return Value::object({{"model", sha256(format_model(model.file))},
-                        {"plant", sha256(format_json(to_json(setup), false))},
-                        {"tracked", join(options.wears, ",")},
-                        {"level", options.level},
-                        {"known", join(options.known, ",")}});
+Value basis_of(const PlacedModels& models, const InPlantSetup& setup, const WatchOptions& options) {
+  Value basis = Value::object();
+  const std::vector<std::string> struts = observer_names(setup).struts;
+  for (size_t d = 0; d < models.size(); ++d)
+    basis.add(models.size() == 1 ? "model" : "model of " + struts[d],
+              sha256(format_model(models[d]->file)));
+  basis.add("plant", sha256(format_json(to_json(setup), false)));
+  basis.add("tracked", join(options.wears, ","));
+  basis.add("level", options.level);
+  basis.add("known", join(options.known, ","));
+  return basis;
 }
 
 /// Days that were looked at before, and the plant as they found it.
@@ -136,15 +188,20 @@ WatchHistory history_of(const std::optional<Value>& state, const Value& basis) {
 }
 
 /// The charts of all days as JSON, and the state that the next days go on from.
-std::string watch_rides(const dashpot_model& model, const dashpot_rides* rides, const char* plant,
+std::string watch_rides(const PlacedModels& models, const dashpot_rides* rides, InPlantSetup setup,
                         WatchWords words, const dashpot_monitor* monitor) {
-  const InPlantSetup setup = with_identified_noise(setup_of(plant), model.file, "the model");
+  const ObservedDampers dampers = placed(models, setup);
   WatchOptions& options = words.options;
-  require_plant_drive(setup, model.file, model.name);
-  const Value basis = basis_of(model, setup, options);
+  const Value basis = basis_of(models, setup, options);
   WatchHistory history = history_of(words.state, basis);
   std::vector<PlantRecording> recordings = recordings_of(rides, setup, options.known);
-  const std::shared_ptr<const DamperModel> damper = model.damper->with_offset(0);
+
+  // Days are taken as they come, whatever their names say.
+  Value warnings = Value::array();
+  std::vector<std::string> names = {history.days.empty() ? "" : history.days.back().estimate.name};
+  names.insert(names.end(), rides->names.begin(), rides->names.end());
+  if (std::string disorder = day_disorder(names); !disorder.empty())
+    warnings.push_back(std::move(disorder));
 
   // The plant as the state has it, or as the first days show it; then each new day.
   WatchedPlant watched;
@@ -152,12 +209,12 @@ std::string watch_rides(const dashpot_model& model, const dashpot_rides* rides, 
   run_watched(monitor, [&](const Monitor& watching) {
     options.monitor = watching;
     if (history.found) {
-      watched = watched_again(damper, model.file.domain, setup, *history.found, options);
+      watched = watched_again(dampers, setup, *history.found, options);
     } else {
       require_watchable(setup, options);
       const std::size_t first = std::min(kPreparationDays, recordings.size());
-      watched = watched_plant(damper, model.file.domain, setup,
-                              {recordings.begin(), recordings.begin() + first}, options);
+      watched =
+          watched_plant(dampers, setup, {recordings.begin(), recordings.begin() + first}, options);
     }
     parallel_for(days.size(), options.threads, [&](std::size_t d) {
       watching.check();
@@ -170,6 +227,8 @@ std::string watch_rides(const dashpot_model& model, const dashpot_rides* rides, 
   const std::vector<WatchedQuantity> quantities = watch_charts(watched, history.days, options);
   Value told = to_json(Watched{watched, history.days, quantities, options}), kept = Value::array();
   for (const WatchedDay& day : history.days) kept.push_back(to_json(day));
+  for (std::string& doubt : hardly_apart(watched)) warnings.push_back(std::move(doubt));
+  told.add("warnings", std::move(warnings));
   told.add(
       "state",
       Value::object({{"basis", basis}, {"found", found_of(watched)}, {"days", std::move(kept)}}));
@@ -200,6 +259,7 @@ dashpot_status dashpot_rides_load(dashpot_rides* rides, const char* path) {
       tables.push_back(std::move(read.front()));
     }
     if (tables.empty()) throw Error(path, "holds no file", "a file or a folder of recordings");
+    for (const RawTable& table : tables) rides->names.push_back(table.file);
     std::ranges::move(tables, std::back_inserter(rides->tables));
   });
 }
@@ -214,6 +274,7 @@ dashpot_status dashpot_rides_add(dashpot_rides* rides, const dashpot_table* tabl
     const std::string name =
         table->name ? table->name : "ride " + std::to_string(rides->tables.size() + 1);
     rides->tables.push_back(copy_table(*table, name));
+    rides->names.emplace_back(table->name ? name : "");
   });
 }
 
@@ -240,8 +301,23 @@ dashpot_status dashpot_observe(const dashpot_model* model, const dashpot_rides* 
     if (report) *report = nullptr;
     require(estimates, "estimates");
     *estimates = nullptr;
-    require(model, "model");
-    observe_rides(*model, rides, plant, read_observe_options(options), monitor, estimates, report);
+    InPlantSetup setup = setup_of(plant);
+    observe_rides(in_each_strut(model, setup), rides, std::move(setup),
+                  read_observe_options(options), monitor, estimates, report);
+  });
+}
+
+dashpot_status dashpot_observe_dampers(const dashpot_placed_model* dampers, size_t count,
+                                       const dashpot_rides* rides, const char* plant,
+                                       const char* options, const dashpot_monitor* monitor,
+                                       dashpot_recordings** estimates, char** report) {
+  return guarded([&] {
+    if (report) *report = nullptr;
+    require(estimates, "estimates");
+    *estimates = nullptr;
+    InPlantSetup setup = setup_of(plant);
+    observe_rides(by_struts(dampers, count, setup), rides, std::move(setup),
+                  read_observe_options(options), monitor, estimates, report);
   });
 }
 
@@ -251,7 +327,21 @@ dashpot_status dashpot_watch(const dashpot_model* model, const dashpot_rides* ri
   return guarded([&] {
     require(report, "report");
     *report = nullptr;
-    require(model, "model");
-    *report = copy_text(watch_rides(*model, rides, plant, read_watch_options(options), monitor));
+    InPlantSetup setup = setup_of(plant);
+    *report = copy_text(watch_rides(in_each_strut(model, setup), rides, std::move(setup),
+                                    read_watch_options(options), monitor));
+  });
+}
+
+dashpot_status dashpot_watch_dampers(const dashpot_placed_model* dampers, size_t count,
+                                     const dashpot_rides* rides, const char* plant,
+                                     const char* options, const dashpot_monitor* monitor,
+                                     char** report) {
+  return guarded([&] {
+    require(report, "report");
+    *report = nullptr;
+    InPlantSetup setup = setup_of(plant);
+    *report = copy_text(watch_rides(by_struts(dampers, count, setup), rides, std::move(setup),
+                                    read_watch_options(options), monitor));
   });
 }

@@ -94,20 +94,36 @@ std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings&
   return {damper.drive_min, 0.5 * (damper.drive_min + damper.drive_max), damper.drive_max};
 }
 
-/// The damper as the set has it, or worn.
-std::shared_ptr<const DamperModel> true_damper(const ParameterSet& damper, double level,
-                                               const PlantBenchSettings& settings) {
-  const auto as_new = std::make_shared<LawModel>(damper.model);
-  if (settings.wear.empty()) return as_new;
-  std::vector<WornDamper::Amount> amounts;
+/// The damper of each strut as the set has it, or worn: all by "force", one of several by
+/// "front_force".
+std::vector<std::shared_ptr<const DamperModel>> true_dampers(const ParameterSet& damper,
+                                                             double level,
+                                                             const std::vector<std::string>& struts,
+                                                             const PlantBenchSettings& settings) {
+  std::vector<std::vector<WornDamper::Amount>> amounts(struts.size());
   for (const std::string& word : settings.wear) {
     const std::size_t equals = word.find('=');
     const auto value =
         equals == std::string::npos ? std::nullopt : parse_number(word.substr(equals + 1));
     if (!value) throw UsageError("--wear", "is '" + word + "'", "force=-0.1");
-    amounts.push_back({&find_wear(word.substr(0, equals), "--wear"), *value});
+    const std::string name = word.substr(0, equals);
+    const std::size_t bar = name.rfind('_');
+    const auto own =
+        bar == std::string::npos ? struts.end() : std::ranges::find(struts, name.substr(0, bar));
+    const Wear& wear = find_wear(own == struts.end() ? name : name.substr(bar + 1), "--wear");
+    for (std::size_t d = 0; d < struts.size(); ++d)
+      if (own == struts.end() || *own == struts[d]) amounts[d].push_back({&wear, *value});
   }
-  return std::make_shared<WornDamper>(mounted(as_new, level), std::move(amounts));
+
+  const auto as_new = std::make_shared<LawModel>(damper.model);
+  std::vector<std::shared_ptr<const DamperModel>> dampers;
+  for (const std::vector<WornDamper::Amount>& worn : amounts) {
+    if (worn.empty())
+      dampers.push_back(as_new);
+    else
+      dampers.push_back(std::make_shared<WornDamper>(mounted(as_new, level), worn));
+  }
+  return dampers;
 }
 
 }  // namespace
@@ -127,8 +143,8 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
            .default_text = "those of the plant's table"},
           {.names = "--wear",
            .target = &settings.wear,
-           .help = "with --in: changes of the damper's force, as force=-0.1 (10 % less); what "
-                   "'dashpot watch' finds",
+           .help = "with --in: changes of the damper's force, as force=-0.1 (10 % less), of one of "
+                   "several front_force=-0.1; what 'dashpot watch' finds",
            .value = "LIST"},
 
           // What moves it, for how long, and how well that is seen.
@@ -204,8 +220,11 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
       .push = settings.push,
       .seed = campaign.bench.seed,
       .monitor = console.monitor()};
-  const std::vector<VirtualRide> rides =
-      virtual_campaign(setup, *true_damper(damper, options.levels.front(), settings), options);
+  const auto dampers =
+      true_dampers(damper, options.levels.front(), observer_names(setup).struts, settings);
+  std::vector<const DamperModel*> models;
+  for (const auto& one : dampers) models.push_back(one.get());
+  const std::vector<VirtualRide> rides = virtual_campaign(setup, models, options);
 
   // All rides before the first file.
   Value list = Value::array();

@@ -10,7 +10,7 @@
 
 #include "commands.h"
 #include "console.h"
-#include "damper_choice.h"
+#include "dampers_in_plant.h"
 #include "dashpot/base/date.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -65,52 +65,6 @@ double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
-}
-
-/// A model file per damper, in the order of the plant's struts: MODEL is one for all of them, or
-/// says NAME=FILE of each.
-std::vector<std::string> model_files(const std::string& model,
-                                     const std::vector<std::string>& struts) {
-  if (model.find('=') == std::string::npos || fs::exists(model))
-    return std::vector<std::string>(struts.size(), model);
-  std::vector<std::string> files(struts.size());
-  for (const std::string& word : split(model, ',')) {
-    const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const auto strut = std::ranges::find(struts, name);
-    if (equals == std::string::npos || equals + 1 == word.size())
-      throw UsageError("MODEL", "'" + word + "' is of no damper", "NAME=FILE of each damper");
-    if (strut == struts.end())
-      throw UsageError("MODEL", "the plant has no damper '" + name + "'", suggest(name, struts));
-    std::string& file = files[static_cast<std::size_t>(strut - struts.begin())];
-    if (!file.empty())
-      throw UsageError("MODEL", "the damper '" + name + "' has two models", "one of each damper");
-    file = word.substr(equals + 1);
-  }
-  for (std::size_t d = 0; d < struts.size(); ++d)
-    if (files[d].empty())
-      throw UsageError("MODEL", "the damper '" + struts[d] + "' has no model",
-                       model + "," + struts[d] + "=FILE, or one FILE for all dampers");
-  return files;
-}
-
-/// The dampers in a plant by their files, each of which is read once. The setup gets the noise
-/// that they know of.
-ObservedDampers load_dampers(const std::vector<std::string>& files, InPlantSetup& setup,
-                             Console& console) {
-  ObservedDampers dampers;
-  for (std::size_t d = 0; d < files.size(); ++d) {
-    const auto same = std::ranges::find(files, files[d]) - files.begin();
-    if (static_cast<std::size_t>(same) < d) {
-      dampers.push_back(dampers[static_cast<std::size_t>(same)]);
-      continue;
-    }
-    ModelFile file = load_damper_file({.model = files[d], .parameters = {}}, "observe", console);
-    require_plant_drive(setup, file, files[d]);
-    setup = with_identified_noise(std::move(setup), file, files[d]);
-    dampers.push_back({std::move(file.model), file.domain});
-  }
-  return dampers;
 }
 
 /// The truth of each recording, of what is estimated; none where it is not known.
@@ -424,8 +378,8 @@ int run_observe(const ObserveSettings& settings, Console& console) {
     throw UsageError("--band", "is not between 0 and 100 %", "90");
   InPlantSetup setup = read_in_plant_setup(settings.plant);
   require_setup(setup);
-  const ObservedDampers dampers =
-      load_dampers(model_files(settings.model, observer_names(setup).struts), setup, console);
+  const ObservedDampers dampers = load_dampers(
+      model_files(settings.model, observer_names(setup).struts), "observe", setup, console);
   page_units(settings.units);
   std::vector<PlantRecording> recordings;
   for (const std::string& name : recording_files(settings.recordings))

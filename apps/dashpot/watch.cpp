@@ -1,7 +1,6 @@
 #include "dashpot/machine/watch.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -11,13 +10,13 @@
 
 #include "commands.h"
 #include "console.h"
-#include "damper_choice.h"
+#include "dampers_in_plant.h"
 #include "dashpot/base/date.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/store.h"
 #include "dashpot/base/text.h"
-#include "dashpot/machine/found_noise.h"
+#include "dashpot/machine/day_order.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/report/words.h"
 #include "data.h"
@@ -45,7 +44,10 @@ constexpr std::string_view kWatchExample =
     "\n"
     "# The ride height as well, whose mean tells of the gas; a warm oil explains a weak day:\n"
     "dashpot watch model.json --in car.yaml days --level level --known temperature \\\n"
-    "  --state car.watch --false-alarms 0.002";
+    "  --state car.watch --false-alarms 0.002\n"
+    "\n"
+    "# A half car whose dampers are not alike: which of them fades\n"
+    "dashpot watch front=firm.json,rear=soft.json --in half.yaml days --state half.watch";
 
 constexpr StoreFormat kWatchFormat{"watch", 1, "name another --state, or remove this one"};
 
@@ -109,13 +111,19 @@ WatchOptions watch_options(const WatchSettings& settings, Console& console) {
   return options;
 }
 
-/// What all results of a state depend on.
-NamedTexts basis_of(const WatchSettings& settings, const InPlantSetup& setup) {
-  return {{"model", sha256_of_file(settings.model)},
-          {"plant", format_json(to_json(setup), false)},
-          {"tracked quantities", join(settings.tracked, ",")},
-          {"level", settings.level},
-          {"known channels", join(settings.known, ",")}};
+/// What all results of a state depend on; `models`: a file per damper.
+NamedTexts basis_of(const WatchSettings& settings, const std::vector<std::string>& models,
+                    const InPlantSetup& setup) {
+  NamedTexts basis;
+  const std::vector<std::string> struts = observer_names(setup).struts;
+  for (std::size_t d = 0; d < models.size(); ++d)
+    basis.emplace_back(models.size() == 1 ? "model" : "model of " + struts[d],
+                       sha256_of_file(models[d]));
+  basis.insert(basis.end(), {{"plant", format_json(to_json(setup), false)},
+                             {"tracked quantities", join(settings.tracked, ",")},
+                             {"level", settings.level},
+                             {"known channels", join(settings.known, ",")}});
+  return basis;
 }
 
 /// The recordings that the state does not hold yet, in their order.
@@ -132,40 +140,6 @@ std::vector<NewDay> new_days(const WatchSettings& settings, const DayState& stat
   return days;
 }
 
-/// A name with each number as '#': what the names of one series share. Empty where a year ends it,
-/// as in 31.12.2026, so that its numbers are no order.
-std::string series_of(const std::string& name) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::string series, number;
-  for (const char c : fs::path(name).stem().string()) {
-    if (!is_digit(c)) number.clear();
-    if (!is_digit(c) || number.empty()) series += is_digit(c) ? '#' : c;
-    if (is_digit(c)) number += c;
-  }
-  const bool ends_in_year = std::ranges::count(series, '#') > 2 && number.size() == 4 &&
-                            (number.starts_with("19") || number.starts_with("20"));
-  return ends_in_year ? "" : series;
-}
-
-/// Days are taken as they come: warns where the numbers in their names tell another order, as a
-/// shell lists day_10 before day_2.
-void tell_disorder(const std::vector<WatchedDay>& kept, const std::vector<NewDay>& todo,
-                   Console& console) {
-  std::string before = kept.empty() ? "" : kept.back().estimate.name;
-  for (const NewDay& day : todo) {
-    const std::string name = fs::path(day.path).filename().string(), series = series_of(name);
-    if (!series.empty() && series == series_of(before) &&
-        strverscmp(before.c_str(), name.c_str()) > 0) {
-      console.warn(name + " comes behind " + before +
-                   ", and its name says before: days are taken in the order in which they are "
-                   "given; give them in their own, or their folder, which is read by the numbers "
-                   "in the names");
-      return;
-    }
-    before = name;
-  }
-}
-
 PlantRecording read_day(const NewDay& day, const InPlantSetup& setup, const WatchOptions& options) {
   std::vector<std::string> channels = setup.channels();
   channels.insert(channels.end(), options.known.begin(), options.known.end());
@@ -173,12 +147,12 @@ PlantRecording read_day(const NewDay& day, const InPlantSetup& setup, const Watc
 }
 
 /// The plant as the state has it, or as the first reference days show it.
-WatchedPlant prepared(const ModelFile& file, std::shared_ptr<const DamperModel> damper,
-                      const InPlantSetup& setup, const std::vector<NewDay>& todo,
-                      const WatchOptions& options, DayState& state, Console& console) {
+WatchedPlant prepared(ObservedDampers dampers, const InPlantSetup& setup,
+                      const std::vector<NewDay>& todo, const WatchOptions& options, DayState& state,
+                      Console& console) {
   if (state.found()) {
     const Value found = parse_json(*state.found(), "state");
-    return watched_again(std::move(damper), file.domain, setup, found, options);
+    return watched_again(std::move(dampers), setup, found, options);
   }
   require_watchable(setup, options);
   if (todo.empty()) throw UsageError("RECORDING", "is missing", "the recordings of the first days");
@@ -186,7 +160,7 @@ WatchedPlant prepared(const ModelFile& file, std::shared_ptr<const DamperModel> 
   for (std::size_t d = 0; d < std::min(kPreparationDays, todo.size()); ++d)
     first.push_back(read_day(todo[d], setup, options));
   if (const std::string note = without_units(first); !note.empty()) console.note(note);
-  WatchedPlant watched = watched_plant(std::move(damper), file.domain, setup, first, options);
+  WatchedPlant watched = watched_plant(std::move(dampers), setup, first, options);
   state.keep_found(watched);
   return watched;
 }
@@ -234,18 +208,19 @@ int run_watch(const WatchSettings& settings, Console& console) {
     throw UsageError("--in", "is missing", "the plant and its sensors: docs/in-plant.md");
   const WatchOptions options = watch_options(settings, console);
   const PrintUnits units = page_units(settings.units);
-  ModelFile file = load_damper_file({.model = settings.model, .parameters = {}}, "watch", console);
-  const InPlantSetup setup =
-      with_identified_noise(read_in_plant_setup(settings.plant), file, settings.model);
-  require_plant_drive(setup, file, settings.model);
-  DayState state(settings, basis_of(settings, setup), console);
+  InPlantSetup setup = read_in_plant_setup(settings.plant);
+  require_setup(setup);
+  const std::vector<std::string> models = model_files(settings.model, observer_names(setup).struts);
+  ObservedDampers dampers = load_dampers(models, "watch", setup, console);
+  DayState state(settings, basis_of(settings, models, setup), console);
   const std::vector<NewDay> todo = new_days(settings, state);
-  tell_disorder(state.days(), todo, console);
-  std::shared_ptr<const DamperModel> damper = std::move(file.model);
+  std::vector<std::string> names = {state.days().empty() ? "" : state.days().back().estimate.name};
+  for (const NewDay& day : todo) names.push_back(fs::path(day.path).filename().string());
+  if (const std::string disorder = day_disorder(names); !disorder.empty()) console.warn(disorder);
 
-  // The new days, then the charts of all.
-  const WatchedPlant watched =
-      prepared(file, std::move(damper), setup, todo, options, state, console);
+  // The new days, then the charts of all; before them, what the sensors will not tell.
+  const WatchedPlant watched = prepared(std::move(dampers), setup, todo, options, state, console);
+  for (const std::string& doubt : hardly_apart(watched)) console.warn(doubt);
   add_days(watched, todo, options, state, console);
   if (state.days().empty()) throw Error("recordings", "none of them can be used");
   const std::vector<WatchedQuantity> quantities = watch_charts(watched, state.days(), options);
@@ -276,20 +251,20 @@ Command watch_command() {
   for (const Wear& wear : wears()) names.push_back(wear.name);
   return {
       .name = "watch",
-      .title = "A damper at work, followed from day to day: an alarm when it fades",
+      .title = "Dampers at work, followed from day to day: an alarm when one fades",
       .description =
           "Takes the recordings of a plant, one per day and in their order. Each says, through the "
-          "filter of 'dashpot observe', how much the damper's force differs from its model's; what "
-          "is unknown of the plant, as its load, and the road are found anew on each day. The "
-          "first "
-          "days teach how much healthy days differ; from then on a chart per quantity (a "
-          "self-starting cumulative sum) raises an alarm when it has fallen. How often healthy "
-          "days raise one is stated, not hoped for. docs/in-plant.md has the rules.",
+          "filter of 'dashpot observe', how much the force of each damper differs from its "
+          "model's; what is unknown of the plant, as its load, and the road are found anew on each "
+          "day. The first days teach how much healthy days differ; from then on a chart per damper "
+          "and quantity (a self-starting cumulative sum) raises an alarm when it has fallen. How "
+          "often healthy days raise any is stated, not hoped for. docs/in-plant.md has the rules.",
       .options =
           {// The damper, the days, and the plant.
            {.names = "MODEL",
             .target = &s.model,
-            .help = "a model file that 'dashpot identify' wrote",
+            .help = "a model file that 'dashpot identify' wrote; of several dampers one for all, "
+                    "or one each by the names of their struts: front=a.json,rear=b.json",
             .takes = Takes::File,
             .required = true},
            {.names = "RECORDING",
@@ -312,7 +287,7 @@ Command watch_command() {
            // What is followed, and how soon it alarms.
            {.names = "--tracked",
             .target = &s.tracked,
-            .help = "what is followed, as changes of the model's force",
+            .help = "what is followed of each damper, as changes of its model's force",
             .value = "LIST",
             .choices = names,
             .noun = "wear"},
@@ -330,7 +305,8 @@ Command watch_command() {
             .value = "DAYS"},
            {.names = "--false-alarms",
             .target = &s.false_alarms,
-            .help = "per healthy day, all charts together: 0.001 is one in 1000 days on average",
+            .help = "per healthy day, all charts of all dampers together: 0.001 is one in 1000 "
+                    "days on average",
             .value = "RATE",
             .minimum = 0},
 

@@ -23,6 +23,8 @@ std::string amount_text(const WatchedQuantity& q, double value, int digits = 3) 
 }
 std::string amount_unit(const WatchedQuantity& q) { return is_share(q) ? "%" : unit_name(q.unit); }
 
+bool has_several(const Watched& watched) { return watched.plant.dampers.size() > 1; }
+
 /// Days that the charts take.
 std::size_t days_that_count(const Watched& watched) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -77,8 +79,10 @@ DocumentTable day_table(const Watched& watched) {
   }
   table.brief = rows_in_brief(watched);
   table.note =
-      "Amounts by which the damper differs from its model, with what the day itself leaves open "
-      "(95 %). 'sum' is the chart's: healthy days keep it near 0.";
+      std::string(has_several(watched) ? "Amounts by which each damper differs from its model"
+                                       : "Amounts by which the damper differs from its model") +
+      ", with what the day itself leaves open (95 %). 'sum' is the chart's: healthy days keep it "
+      "near 0.";
   return table;
 }
 
@@ -106,9 +110,30 @@ DocumentTable chart_table(const Watched& watched) {
 
   table.note = fmt::format(
       "Healthy days that are independent and normally distributed give a false alarm once in {} "
-      "days on average, all charts together. Scatter: what is to be expected of the next day, "
+      "days on average, all charts {}together. Scatter: what is to be expected of the next day, "
       "learnt from those before.",
-      format_number(watched.options.chart.days));
+      format_number(watched.options.chart.days), has_several(watched) ? "of all dampers " : "");
+  return table;
+}
+
+/// How well a day of the first ones tells the dampers apart.
+DocumentTable outlook_table(const Watched& watched) {
+  DocumentTable table{.title = "What a day can tell",
+                      .columns = {{"quantity"},
+                                  {"+-, of a day", true},
+                                  {"+-, the others known", true},
+                                  {"most like"}},
+                      .rows = {}};
+  for (std::size_t a = 0; a < watched.plant.outlook.size(); ++a) {
+    const WearOutlook& one = watched.plant.outlook[a];
+    const WatchedQuantity& q = watched.quantities[a];
+    table.rows.push_back(
+        {q.name + ", " + amount_unit(q), amount_text(q, kNormal95 * one.deviation, 2),
+         amount_text(q, kNormal95 * one.alone, 2), watched.quantities[one.like].name});
+  }
+  table.note =
+      "95 %, found on the first days. A number that is several times the one beside it is hardly "
+      "told from the amount that it is most like.";
   return table;
 }
 
@@ -212,8 +237,8 @@ std::string verdict_of(const Watched& watched) {
 
   // How often it is wrong, and the days that it knows nothing of.
   verdict += fmt::format(
-      " False alarms: one in {} days on average, where healthy days are independent and normal.",
-      format_number(watched.options.chart.days));
+      " False alarms{}: one in {} days on average, where healthy days are independent and normal.",
+      has_several(watched) ? " of any damper" : "", format_number(watched.options.chart.days));
   if (const std::size_t others = watched.days.size() - count; others > 0)
     verdict += fmt::format(" {} not count: no wear was found under which the sensors are likely.",
                            others == 1 ? "One day does" : std::to_string(others) + " days do");
@@ -236,7 +261,8 @@ std::string csv_titles(const Watched& watched) {
 }  // namespace
 
 Document watch_document(const Watched& watched) {
-  Document document{.title = "A damper watched from day to day",
+  Document document{.title = has_several(watched) ? "Dampers watched from day to day"
+                                                  : "A damper watched from day to day",
                     .subtitle = std::string(watched.plant.setup.model->title),
                     .verdict = {},
                     .sections = {},
@@ -248,9 +274,12 @@ Document watch_document(const Watched& watched) {
   for (const WatchedQuantity& q : watched.quantities)
     if (q.chart.alarm && &q != watched.first_alarm())
       charts.remarks.push_back("Also: " + alarm_text(watched, q) + ".");
+  for (const std::string& doubt : hardly_apart(watched.plant))
+    charts.remarks.push_back("In doubt: " + doubt + ".");
   if (const std::string noise = identified_noise_words(watched.plant.setup); !noise.empty())
     charts.remarks.push_back(noise);
   charts.tables = {chart_table(watched)};
+  if (has_several(watched)) charts.tables.push_back(outlook_table(watched));
   charts.figures = {chart_figure(watched)};
   DocumentSection days{.name = "days", .title = "Days", .paragraphs = {}};
   days.tables = {day_table(watched)};

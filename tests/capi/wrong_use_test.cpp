@@ -81,7 +81,16 @@ std::map<std::string, Call> null_calls() {
        [] {
          return dashpot_observe(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
        }},
+      {"observe_dampers",
+       [] {
+         return dashpot_observe_dampers(nullptr, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                        nullptr);
+       }},
       {"watch", [] { return dashpot_watch(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr); }},
+      {"watch_dampers",
+       [] {
+         return dashpot_watch_dampers(nullptr, 0, nullptr, nullptr, nullptr, nullptr, nullptr);
+       }},
   };
 }
 

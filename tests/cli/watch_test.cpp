@@ -121,3 +121,77 @@ TEST_CASE("watch: what cannot be is said before the work" * doctest::test_suite(
   CHECK(contains(refusal("--in " + plant + " --reference 2"), "is 2 days; 5 or more"));
   CHECK(contains(refusal("--in " + plant + " " + day), "is the same file as"));
 }
+
+TEST_CASE("watch: of two dampers it says which one fades, and by how much" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder;
+  const std::string plant =
+                        folder
+                            .write("rig.yaml",
+                                   "plant: matrices\ncoordinates: [floor, table]\n"
+                                   "mass: [[200 kg, 0], [0, 100 kg]]\n"
+                                   "stiffness: [[120 kN/m, -40 kN/m], [-40 kN/m, 40 kN/m]]\n"
+                                   "dampers: [{name: low, from: ground, to: floor}, {name: high, "
+                                   "from: floor, to: table}]\n"
+                                   "inputs: [{channel: push, kind: force, at: floor}]\n"
+                                   "sensors:\n"
+                                   "  - {channel: a1, quantity: acceleration, at: floor, noise: "
+                                   "0.05}\n"
+                                   "  - {channel: a2, quantity: acceleration, at: table, noise: "
+                                   "0.05}\n"
+                                   "  - {channel: x1, quantity: deflection, at: low, noise: 0.1 "
+                                   "mm}\n"
+                                   "  - {channel: x2, quantity: deflection, at: high, noise: 0.1 "
+                                   "mm}\n"
+                                   "current: 0 A\n")
+                            .string(),
+                    model = (folder.path() / "model.json").string(),
+                    out = (folder.path() / "out").string(),
+                    days = (folder.path() / "days").string();
+  save_model(to_model_file(load_parameter_set("kwok2006")), model);
+  for (int day = 1; day <= 11; ++day) {
+    const std::string ride = (folder.path() / "ride").string();
+    REQUIRE(run_dashpot("bench --in " + plant + " --damper kwok2006 --push 1600 --duration 4 " +
+                        "--sample-rate 200 --seed " + std::to_string(day) +
+                        (day > 8 ? " --wear high_force=-0.3" : "") + " --output " + ride)
+                .exit_code == 0);
+    write_file(days + "/day_" + std::to_string(day) + ".csv", read_file(ride + "/ride_1.csv"));
+  }
+  const std::string rest = " --in " + plant + " --reference 6 --false-alarms 0.01 --state " +
+                           (folder.path() / "rig.watch").string() + " --output " + out + ' ' + days;
+
+  // What is wrong with the models is said before the work.
+  const auto refusal = [&](const std::string& models) {
+    const ProgramResult result = run_dashpot("watch " + models + rest);
+    CHECK(result.exit_code == 2);
+    return result.output;
+  };
+  CHECK(contains(refusal("low=" + model), "the damper 'high' has no model"));
+  CHECK(contains(refusal("low=" + model + ",hihg=" + model), "the plant has no damper 'hihg'"));
+  CHECK(contains(refusal("low=" + model + ",low=" + model), "the damper 'low' has two models"));
+
+  // A day without one of the sensors is named and left out.
+  std::string table = read_file(days + "/day_7.csv");
+  const std::string whole = table;
+  table.replace(table.find("x2"), 2, "x3");
+  write_file(days + "/day_7.csv", table);
+  const std::string words = "watch low=" + model + ",high=" + model + rest + " --json";
+  const ProgramResult partly = run_dashpot(words);
+  CHECK(partly.exit_code == 4);
+  CHECK(contains(partly.output, "left out: "));
+  CHECK(contains(partly.output, "has no column 'x2'"));
+
+  const ProgramResult faded = stdout_of_dashpot(words);
+  const Value told = parse_json(faded.output, "stdout");
+  CHECK(told.find("first_alarm")->as_string() == "high_force");
+  CHECK(told.find("dampers")->find("low")->as_string() == "kwok2006");
+  CHECK(told.find("hardly_apart")->items().empty());
+  const auto& charts = told.find("charts")->items();
+  REQUIRE(charts.size() == 2);
+  CHECK(charts[0].find("damper")->as_string() == "low");
+  CHECK(!charts[0].find("alarm"));
+  CHECK(charts[1].find("since")->as_string() == "day_9.csv");
+  CHECK(std::abs(charts[1].find("fall")->as_number() - 0.3) < 0.06);
+  CHECK(contains(read_file(out + "/report.md"), "ALARM: the high damper's whole force has fallen"));
+  CHECK(contains(read_file(out + "/report.csv"), "day,low_force,low_force_deviation"));
+}

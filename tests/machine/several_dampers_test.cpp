@@ -317,8 +317,15 @@ TEST_CASE("several dampers: what cannot be is refused, with what would be right"
                           "{kind: ground, at: rear, class: C, speed: 20 m/s}"),
                  "has 2 dampers, and a fit beside a road that nothing measures knows one"));
 
-  // Who follows one damper alone.
-  CHECK(contains(message_of([&] { require_watchable(half_car(), {}); }), "and 'watch' knows one"));
+  // Each damper is watched, but no road that follows another one.
+  CHECK(message_of([&] { require_watchable(half_car(), {}); }).empty());
+  CHECK(contains(message_of([&] {
+                   require_watchable(half_car("{channel: rear_tyre_road, kind: ground, at: rear}",
+                                              "{kind: ground, at: rear, follows: front_tyre_road, "
+                                              "delay: 0.14 s}"),
+                                     {});
+                 }),
+                 "'watch' knows no road that follows another one"));
 }
 
 TEST_CASE("several dampers: a setup is the same once it was written") {

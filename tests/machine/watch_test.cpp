@@ -7,6 +7,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/machine/day_order.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/numerics/distributions.h"
@@ -64,12 +65,46 @@ PlantRecording oscillator_day(double mass, double force, std::uint64_t seed) {
 }
 
 WatchedPlant watched_oscillator(const std::vector<std::string>& wears) {
-  WatchedPlant watched{.damper = tanh_damper(),
-                       .domain = kOscillatorDomain,
+  WatchedPlant watched{.dampers = {{tanh_damper(), kOscillatorDomain}},
                        .setup = parse_in_plant_setup(kWatchedOscillator, "oscillator.yaml")};
   for (const std::string& name : wears) watched.wears.push_back(&find_wear(name, "test"));
   watched.noise = {.force = {{0.5, 0.02}}, .sensors = {1e-4, 0.02}};
   return watched;
+}
+
+/// Two masses one upon the other, each on a damper; `places`: where these stand.
+InPlantSetup two_dampers(const std::string& places, const std::string& sensors) {
+  return parse_in_plant_setup(
+      "plant: matrices\ncoordinates: [floor, table]\nmass: [[20 kg, 0], [0, 10 kg]]\n"
+      "stiffness: [[12 kN/m, -4 kN/m], [-4 kN/m, 4 kN/m]]\ndampers: " +
+          places + "\ninputs: [{channel: push, kind: force, at: floor}]\nsensors:\n" + sensors,
+      "rig.yaml");
+}
+const std::string kLowAndHigh =
+    "[{name: low, from: ground, to: floor}, {name: high, from: floor, to: table}]";
+const std::string kBothMasses =
+    "  - {channel: floor, quantity: acceleration, at: floor, noise: 0.02}\n"
+    "  - {channel: table, quantity: acceleration, at: table, noise: 0.02}\n";
+
+/// A day of such a rig on which its dampers have become so much weaker.
+PlantRecording rig_day(const InPlantSetup& setup, double low, double high, std::uint64_t seed) {
+  const Wear& force = find_wear("force", "test");
+  const WornDamper first(tanh_damper(), {{&force, -low}}), second(tanh_damper(), {{&force, -high}});
+  const VirtualRide ride =
+      virtual_campaign(setup, std::vector<const DamperModel*>{&first, &second},
+                       {.duration = 4, .sample_rate = 200, .levels = {0}, .push = 60, .seed = seed})
+          .front();
+  return {.name = "day " + std::to_string(seed),
+          .sample_time = ride.recorded.sample_time,
+          .samples = ride.recorded.size(),
+          .channels = ride.recorded.channels};
+}
+
+WatchedPlant watched_rig(const InPlantSetup& setup) {
+  return {.dampers = ObservedDampers(2, {tanh_damper(), kOscillatorDomain}),
+          .setup = setup,
+          .wears = {&find_wear("force", "test")},
+          .noise = {.force = {{0.5, 0.02}}, .sensors = {0.02, 0.02}}};
 }
 
 }  // namespace
@@ -223,7 +258,7 @@ TEST_CASE("watch: what was found and the days come back as they were kept") {
   const WatchOptions options{.wears = {"force"}};
   const Value found = found_of(watched);
   const WatchedPlant again =
-      watched_again(tanh_damper(), kOscillatorDomain,
+      watched_again({{tanh_damper(), kOscillatorDomain}},
                     parse_in_plant_setup(kWatchedOscillator, "oscillator.yaml"), found, options);
   CHECK(format_json(found_of(again)) == format_json(found));
   WatchedDay day{.estimate = {.name = "monday",
@@ -237,13 +272,104 @@ TEST_CASE("watch: what was found and the days come back as they were kept") {
                  .known = {21}};
   CHECK(format_json(to_json(watched_day_from_json(to_json(day)))) == format_json(to_json(day)));
   CHECK(contains(message_of([&] {
-                   watched_plant(tanh_damper(), kOscillatorDomain, watched.setup, {},
+                   watched_plant({{tanh_damper(), kOscillatorDomain}}, watched.setup, {},
                                  {.wears = {"force"}});
                  }),
                  "there are none"));
   CHECK(contains(message_of([&] {
-                   watched_again(tanh_damper(), kOscillatorDomain, watched.setup, found,
+                   watched_again({{tanh_damper(), kOscillatorDomain}}, watched.setup, found,
                                  {.wears = {"force", "rebound", "compression"}});
                  }),
                  "force is the sum of rebound and compression"));
+}
+
+TEST_CASE("several dampers watched: each day says which of them is worn, and how far") {
+  const InPlantSetup setup = two_dampers(kLowAndHigh, kBothMasses);
+  const WatchedPlant watched = watched_rig(setup);
+  for (const auto& [low, high] : {std::pair{0.3, 0.0}, {0.0, 0.3}}) {
+    const DayEstimate day = estimate_day(watched, rig_day(setup, low, high, 7));
+    CHECK(day.converged);
+    REQUIRE(day.wear.size() == 2);
+    CHECK_CLOSE(day.wear[0], -low, 0, std::max(4 * day.wear_deviation[0], 0.02));
+    CHECK_CLOSE(day.wear[1], -high, 0, std::max(4 * day.wear_deviation[1], 0.02));
+  }
+}
+
+TEST_CASE("several dampers watched: a chart each, which share the stated rate") {
+  const InPlantSetup setup = two_dampers(kLowAndHigh, kBothMasses);
+  const WatchedPlant watched = watched_rig(setup);
+  std::vector<WatchedDay> days;
+  Random random(4);
+  for (int d = 0; d < 40; ++d)
+    days.push_back(
+        {.estimate = {.name = "day " + std::to_string(d),
+                      .wear = {0.01 * random.normal(), 0.01 * random.normal() - (d < 30 ? 0 : 0.1)},
+                      .wear_deviation = {0.01, 0.01},
+                      .plant = {},
+                      .plant_deviation = {},
+                      .excitation = 1 + 0.1 * random.uniform(),
+                      .converged = true},
+         .known = {}});
+  const WatchOptions options{.wears = {"force"}, .chart = {.reference = 20, .days = 300}};
+  const std::vector<WatchedQuantity> charts = watch_charts(watched, days, options);
+  REQUIRE(charts.size() == 2);
+  CHECK(charts[0].name == "low_force");
+  CHECK(charts[1].name == "high_force");
+  CHECK(charts[1].meaning == "the high damper's whole force");
+  CHECK(charts[0].chart.threshold == cusum_threshold(0.5, 600));
+  CHECK(!charts[0].chart.alarm);
+  REQUIRE(charts[1].chart.alarm);
+  CHECK(days[charts[1].chart.since].estimate.name == "day 30");
+  CHECK_CLOSE(charts[1].chart.fall, 0.1, 0, 0.02);
+  CHECK(first_alarm_of(charts) == &charts[1]);
+
+  // Both on one day: the one that went further.
+  std::vector<WatchedQuantity> both = charts;
+  both[0].chart = both[1].chart;
+  both[0].chart.threshold *= 2;
+  CHECK(first_alarm_of(both) == &both[1]);
+  both[0].chart.threshold /= 4;
+  CHECK(first_alarm_of(both) == &both[0]);
+}
+
+TEST_CASE("several dampers watched: what the sensors cannot tell apart is refused, or said" *
+          doctest::test_suite("long")) {
+  const auto found = [](const InPlantSetup& setup) {
+    return watched_plant(ObservedDampers(2, {tanh_damper(), kOscillatorDomain}), setup,
+                         {rig_day(setup, 0, 0, 1), rig_day(setup, 0, 0, 2)}, {.wears = {"force"}});
+  };
+
+  // Side by side between the same masses nothing tells one from the other.
+  const std::string refusal = message_of([&] {
+    found(
+        two_dampers("[{name: left, from: floor, to: table}, {name: right, from: floor, to: table}]",
+                    kBothMasses));
+  });
+  CHECK(contains(refusal, "plant, sensors: cannot tell left_force from right_force"));
+
+  // Two that are told apart say so, and the state keeps it.
+  const InPlantSetup setup = two_dampers(kLowAndHigh, kBothMasses);
+  const WatchedPlant told = found(setup);
+  REQUIRE(told.outlook.size() == 2);
+  CHECK(told.outlook[0].like == 1);
+  CHECK(told.outlook[0].deviation < 0.05);
+  CHECK(hardly_apart(told).empty());
+  const Value kept = found_of(told);
+  CHECK(format_json(found_of(watched_again(told.dampers, setup, kept, {.wears = {"force"}}))) ==
+        format_json(kept));
+
+  // Where one is known ten times as well alone, a warning names both.
+  WatchedPlant doubtful = told;
+  doubtful.outlook[1].deviation = 10 * doubtful.outlook[1].alone;
+  REQUIRE(hardly_apart(doubtful).size() == 1);
+  CHECK(contains(hardly_apart(doubtful).front(), "hardly tell high_force from low_force"));
+}
+
+TEST_CASE("day_disorder: names whose numbers tell another order") {
+  CHECK(contains(day_disorder({"", "day_1.csv", "day_10.csv", "day_2.csv"}),
+                 "day_2.csv comes behind day_10.csv"));
+  CHECK(day_disorder({"day_1.csv", "day_2.csv", "day_10.csv"}).empty());
+  CHECK(day_disorder({"30.11.2026.csv", "01.12.2026.csv"}).empty());
+  CHECK(day_disorder({"day_3.csv", "", "day_2.csv"}).empty());
+  CHECK(day_disorder({}).empty());
 }

@@ -2,6 +2,7 @@
 
 import json
 import os
+import warnings
 from typing import Iterable, List, Mapping, Optional, Tuple, Union
 
 from . import _core, _frames
@@ -9,6 +10,7 @@ from ._arrays import as_json
 from ._identify import Progress, Words, words
 
 Plant = Union[str, "os.PathLike[str]", Mapping]
+Dampers = Union[_core.DamperModel, Mapping[str, _core.DamperModel]]
 
 
 def _rides(given, sample_time: float) -> _core._Rides:
@@ -27,6 +29,14 @@ def _rides(given, sample_time: float) -> _core._Rides:
 def _plant(given: Plant) -> str:
     """A file, words, or what such a file holds."""
     return as_json(given) if isinstance(given, Mapping) else os.fspath(given)
+
+
+def _dampers(given: Dampers):
+    """One model for all dampers, or one each by the names of their struts."""
+    for model in given.values() if isinstance(given, Mapping) else [given]:
+        if not isinstance(model, _core.DamperModel):
+            raise TypeError(f"model: is a {type(model).__name__}, not a DamperModel or a dict of them by strut")
+    return dict(given) if isinstance(given, Mapping) else given
 
 
 class PlantFit:
@@ -131,7 +141,7 @@ class Observation:
 
 
 def observe(
-    model: _core.DamperModel,
+    model: Dampers,
     rides,
     plant: Plant,
     *,
@@ -145,7 +155,8 @@ def observe(
 ) -> Observation:
     """What `dashpot observe` does: a damper's force, its plant's motion and the road, with bands.
 
-    A plant with several dampers has this one in each strut, and the forces are "front_damper_force" and so on.
+    A plant with several dampers has this one in each strut, or one each by a dict ({"front": model, "rear": other}),
+    and the forces are "front_damper_force" and so on.
     rides, plant, sample_time: as of identify_in_plant(); of the plant all numbers must be known (PlantFit.plant).
     A sensor whose noise the plant does not state has that which the identification of plant or model found.
     causal: each instant from its past alone. force_error: errors of the model's force as (N, s in which it is
@@ -161,7 +172,7 @@ def observe(
         "steps": steps,
         "threads": threads,
     }
-    core, report = _core.observe(model, _rides(rides, sample_time), _plant(plant), as_json(options), progress)
+    core, report = _core.observe(_dampers(model), _rides(rides, sample_time), _plant(plant), as_json(options), progress)
     return Observation(core, json.loads(report))
 
 
@@ -177,19 +188,26 @@ class Watch:
         """The chart whose alarm came first: "quantity", "alarm" (the day), "since", "fall"; None where none has."""
         places = {day["name"]: place for place, day in enumerate(self.days)}
         alarms = [chart for chart in self.report["charts"] if "alarm" in chart]
+        first = self.report.get("first_alarm")  # of several dampers, on one day that which is furthest
+        alarms.sort(key=lambda chart: chart["quantity"] != first)
         return min(alarms, key=lambda chart: places[chart["alarm"]], default=None)
 
     @property
     def days(self) -> List[dict]:
-        """Each day: its name, the amounts by which the damper differs from its model, the plant, a remark."""
+        """Each day: its name, the amounts by which each damper differs from its model, the plant, a remark."""
         return self.report["days"]
+
+    @property
+    def warnings(self) -> List[str]:
+        """Names that tell another order of the days, dampers that the sensors hardly tell apart; also warned of."""
+        return self.report["warnings"]
 
     def __repr__(self) -> str:
         return f"<dashpot.Watch of {len(self.days)} days, {'ALARM' if self.report['alarm'] else 'no alarm'}>"
 
 
 def watch(
-    model: _core.DamperModel,
+    model: Dampers,
     rides,
     plant: Plant,
     *,
@@ -203,14 +221,18 @@ def watch(
     threads: int = 0,
     progress: Progress = None,
 ) -> Watch:
-    """What `dashpot watch` does: a damper at work, followed from day to day, and an alarm when it fades.
+    """What `dashpot watch` does: dampers at work, followed from day to day, and an alarm when one fades.
 
+    model: in a plant with several dampers in each strut, or one each by a dict ({"front": model, "rear": other}); each
+    is followed, as "front_force".
     rides, plant, sample_time: as of identify_in_plant(), one ride per day in their order. state: Watch.state of an
     earlier call, whose days stand before these and are not looked at again; a dict that json keeps. tracked: "force",
     "rebound", "compression", "viscous" or "stiffness". level: a sensor whose mean is followed, too. known: channels
-    whose mean may explain a day. reference: days that only teach. false_alarms: per day, all charts together.
+    whose mean may explain a day. reference: days that only teach. false_alarms: per day, all charts of all dampers
+    together.
 
-    Raises Error at what cannot be used, and where the state is of another model, plant or choice.
+    Raises Error at what cannot be used, where the sensors cannot tell one damper from another, and where the state is
+    of another model, plant or choice.
     """
     options = {
         "tracked": words(tracked),
@@ -221,5 +243,8 @@ def watch(
         "threads": threads,
         "state": state,
     }
-    report = _core.watch(model, _rides(rides, sample_time), _plant(plant), as_json(options), progress)
-    return Watch(json.loads(report))
+    report = _core.watch(_dampers(model), _rides(rides, sample_time), _plant(plant), as_json(options), progress)
+    told = Watch(json.loads(report))
+    for sentence in told.warnings:
+        warnings.warn(sentence, stacklevel=2)
+    return told

@@ -27,6 +27,8 @@ class DayProblem {
   DayProblem(const WatchedPlant& watched, const PlantRecording& recording);
 
   std::size_t size() const { return size_; }
+  /// Amounts of wear, the first of the unknowns.
+  std::size_t amounts() const { return watched_->dampers.size() * watched_->wears.size(); }
   std::size_t block() const { return block_; }
   std::size_t settled() const { return settled_; }
   Innovations at(const std::vector<double>& x) const { return innovations(observer(x), samples_); }
@@ -63,12 +65,12 @@ DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& record
     : watched_(&watched),
       recording_(&recording),
       samples_(observed_samples(watched.setup, recording)),
-      scale_(observer_scale(*watched.damper, watched.domain)) {
+      scale_(observer_scale(watched.dampers)) {
   const InPlantSetup& setup = watched.setup;
   for (const PlantUnknown& unknown : setup.unknown) plant_.push_back(*unknown.about);
   for (const PlantInputChannel& input : setup.inputs)
     finds_road_ |= input.road && input.road->roughness == 0;
-  size_ = watched.wears.size() + plant_.size() + (finds_road_ ? 1 : 0);
+  size_ = amounts() + plant_.size() + (finds_road_ ? 1 : 0);
   block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kToldBlock / recording.sample_time));
   settled_ =
       std::max(static_cast<std::size_t>(kDaySettles / recording.sample_time), samples_.count / 20);
@@ -88,7 +90,7 @@ DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& record
 
 double DayProblem::plant_value(std::size_t k, const std::vector<double>& x) const {
   const PlantUnknown& unknown = watched_->setup.unknown[k];
-  const double share = kPlantShare * x[watched_->wears.size() + k];
+  const double share = kPlantShare * x[amounts() + k];
   return std::clamp(plant_[k] * (1 + share), unknown.lower, unknown.upper);
 }
 
@@ -111,12 +113,14 @@ PlantObserver DayProblem::observer(const std::vector<double>& x) const {
     setup.known.emplace_back(watched_->setup.unknown[k].name, plant_value(k, x));
   ObserverNoise noise = watched_->noise;
   noise.roughness = roughness(x);
-  std::vector<WornDamper::Amount> amounts;
-  for (std::size_t k = 0; k < watched_->wears.size(); ++k)
-    amounts.push_back({watched_->wears[k], watched_->wears[k]->usual * x[k]});
-  const auto damper = std::make_shared<WornDamper>(watched_->damper, std::move(amounts));
-  return {observer_tables(setup, {damper}, noise, scale_, recording_->sample_time, watched_->steps),
-          {damper}};
+  std::vector<std::shared_ptr<const DamperModel>> dampers;
+  for (std::size_t d = 0, at = 0; d < watched_->dampers.size(); ++d) {
+    std::vector<WornDamper::Amount> amounts;
+    for (const Wear* wear : watched_->wears) amounts.push_back({wear, wear->usual * x[at++]});
+    dampers.push_back(std::make_shared<WornDamper>(watched_->dampers[d].model, std::move(amounts)));
+  }
+  return {observer_tables(setup, dampers, noise, scale_, recording_->sample_time, watched_->steps),
+          dampers};
 }
 
 double DayProblem::misfit_of(const Innovations& told) const {
@@ -130,14 +134,14 @@ double DayProblem::misfit_of(const Innovations& told) const {
 
 void DayProblem::describe(const std::vector<double>& x, const std::vector<double>& deviations,
                           DayEstimate& day) const {
-  const std::size_t wears = watched_->wears.size();
-  for (std::size_t k = 0; k < wears; ++k) {
-    day.wear.push_back(watched_->wears[k]->usual * x[k]);
-    day.wear_deviation.push_back(watched_->wears[k]->usual * deviations[k]);
+  for (std::size_t k = 0; k < amounts(); ++k) {
+    const double usual = watched_->wears[k % watched_->wears.size()]->usual;
+    day.wear.push_back(usual * x[k]);
+    day.wear_deviation.push_back(usual * deviations[k]);
   }
   for (std::size_t k = 0; k < plant_.size(); ++k) {
     day.plant.push_back(plant_value(k, x));
-    day.plant_deviation.push_back(kPlantShare * plant_[k] * deviations[wears + k]);
+    day.plant_deviation.push_back(kPlantShare * plant_[k] * deviations[amounts() + k]);
   }
   day.excitation = excitation(x);
   if (watched_->level.empty()) return;
@@ -222,6 +226,70 @@ std::vector<double> deviations_of(const Scores& scores) {
   return variance;
 }
 
+/// The rows and columns of a square matrix that `kept` names.
+std::vector<double> part_of(const std::vector<double>& matrix, std::size_t n,
+                            const std::vector<std::size_t>& kept) {
+  std::vector<double> part;
+  for (const std::size_t i : kept)
+    for (const std::size_t k : kept) part.push_back(matrix[i * n + k]);
+  return part;
+}
+
+/// The inverse of the information with its diagonal as unit, which also a singular one has: then
+/// numbers are large, and none is left out.
+std::vector<double> inverse_of_share(std::vector<double> information, std::size_t n) {
+  constexpr double kTrace = 1e-9;
+  std::vector<double> size(n);
+  for (std::size_t i = 0; i < n; ++i) size[i] = std::sqrt(information[i * n + i]);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) {
+      const double both = size[i] * size[k];
+      information[i * n + k] = i == k ? 1 + kTrace : both > 0 ? information[i * n + k] / both : 0;
+    }
+  return inverse(information, n);
+}
+
+/// How well the day tells each amount of wear.
+std::vector<WearOutlook> outlook_of(const Scores& scores, std::size_t dampers,
+                                    const std::vector<const Wear*>& wears) {
+  const std::size_t n = scores.slope.size(), amounts = dampers * wears.size();
+  const std::vector<double> together = inverse_of_share(scores.information, n);
+  std::vector<WearOutlook> outlook;
+  for (std::size_t a = 0; a < amounts; ++a) {
+    // All unknowns but the other dampers' amounts.
+    const std::size_t first = a / wears.size() * wears.size(), last = first + wears.size();
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < n; ++i)
+      if (i >= amounts || (i >= first && i < last)) kept.push_back(i);
+    const std::size_t own = a - first;
+    Scores some{part_of(scores.information, n, kept), {}, {}};
+    for (const std::size_t i : kept) some.slope.push_back(scores.slope[i]);
+    for (const std::vector<double>& block : scores.blocks) {
+      some.blocks.emplace_back();
+      for (const std::size_t i : kept) some.blocks.back().push_back(block[i]);
+    }
+
+    // Where these are unknown too, the deviation is as many times that.
+    const std::vector<double> apart = inverse_of_share(some.information, kept.size());
+    const double usual = wears[own]->usual,
+                 alone = scores.information[a * n + a] > 0 ? usual * deviations_of(some)[own]
+                                                           : static_cast<double>(INFINITY),
+                 times = std::sqrt(together[a * n + a] / apart[own * kept.size() + own]);
+    WearOutlook one{.deviation = alone * std::max(times, 1.0), .alone = alone};
+
+    // The other damper's amount with which its estimate goes most.
+    double most = -1;
+    for (std::size_t b = 0; b < amounts; ++b) {
+      const double goes = std::abs(together[a * n + b]) / std::sqrt(together[b * n + b]);
+      if ((b >= first && b < last) || !(goes > most)) continue;
+      most = goes;
+      one.like = b;
+    }
+    outlook.push_back(one);
+  }
+  return outlook;
+}
+
 /// The search for the unknowns of a day. The misfit is rugged where the filter's tangents change,
 /// so that differences are as long as the day leaves an unknown open, and short ones are tried
 /// where these lead nowhere.
@@ -268,7 +336,8 @@ class DaySearch {
   }
 
   const std::vector<double>& x() const { return x_; }
-  const Scores& scores() const { return *scores_; }
+  /// None where the search went astray.
+  const std::optional<Scores>& scores() const { return scores_; }
   /// Of the misfit, by a further step; infinite where the search went astray.
   double gain() const { return scores_ ? gain_ : static_cast<double>(INFINITY); }
 
@@ -356,17 +425,19 @@ std::string at_an_end(const WatchedPlant& watched, const DayEstimate& day) {
   return {};
 }
 
-DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording) {
+DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& recording,
+                         std::vector<WearOutlook>* outlook) {
   require_usable(watched, recording);
   const DayProblem problem(watched, recording);
   DaySearch search(problem, watched.setup.sensors.size());
-  if (!search.begin())
+  DayEstimate day{.name = recording.name};
+  if (search.begin()) day.iterations = search.run();
+  if (!search.scores())
     throw Error(recording.name, "the filter diverges",
                 "a damper and a plant that fit the recording");
-  DayEstimate day{.name = recording.name};
-  day.iterations = search.run();
   day.converged = search.gain() < kFlat;
-  problem.describe(search.x(), deviations_of(search.scores()), day);
+  problem.describe(search.x(), deviations_of(*search.scores()), day);
+  if (outlook) *outlook = outlook_of(*search.scores(), watched.dampers.size(), watched.wears);
   if (!at_an_end(watched, day).empty()) day.converged = false;
   return day;
 }

@@ -113,10 +113,18 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> in
 }
 
 std::vector<double> DrivenPlant::at_rest(const DamperModel& damper, double drive) const {
-  const std::size_t own = damper.state_size();
-  std::vector<double> state(2 * size_ + dampers_.size() * own);
-  for (std::size_t d = 0; d < dampers_.size(); ++d)
-    damper.rest({0, 0, drive}, std::span(state).subspan(2 * size_ + d * own, own));
+  return at_rest(std::vector<const DamperModel*>(dampers_.size(), &damper), drive);
+}
+
+std::vector<double> DrivenPlant::at_rest(std::span<const DamperModel* const> dampers,
+                                         double drive) const {
+  assert(dampers.size() == dampers_.size());
+  std::vector<double> state(2 * size_);
+  for (const DamperModel* damper : dampers) {
+    std::vector<double> own(damper->state_size());
+    damper->rest({0, 0, drive}, own);
+    state.insert(state.end(), own.begin(), own.end());
+  }
   return state;
 }
 
@@ -144,13 +152,14 @@ void DrivenPlant::accelerations(const PlantDriving& driving, std::size_t point, 
 }
 
 /// The rates of all states at a point in time, and the forces of the dampers.
-void DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
-                        const double* state, double* out, Forces& forces) const {
-  const std::size_t own = damper.state_size();
+void DrivenPlant::rates(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
+                        std::size_t point, const double* state, double* out, Forces& forces) const {
+  std::size_t first = 2 * size_;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
-    const std::size_t first = 2 * size_ + d * own;
-    forces[d] = damper.flow(damper_input(dampers_[d], driving, point, state), {state + first, own},
-                            {out + first, own});
+    const std::size_t own = dampers[d]->state_size();
+    forces[d] = dampers[d]->flow(damper_input(dampers_[d], driving, point, state),
+                                 {state + first, own}, {out + first, own});
+    first += own;
   }
   std::copy_n(state + size_, size_, out);
   accelerations(driving, point, state, forces.data(), out + size_);
@@ -229,18 +238,28 @@ bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
 bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
                       std::span<const PlantSensorPlace> sensors, std::span<double> state,
                       std::vector<std::vector<double>>& shown, const RunBeside& beside) const {
+  if (driving.method == PlantMethod::RungeKutta)
+    return run(std::vector<const DamperModel*>(dampers_.size(), &damper), driving, samples, sensors,
+               state, shown);
   shown.assign(sensors.size(), std::vector<double>(samples));
-  return driving.method == PlantMethod::RungeKutta
-             ? run_by_runge_kutta(damper, driving, samples, sensors, state, shown)
-             : run_under_straight_force(damper, driving, samples, sensors, state, shown, beside);
+  return run_under_straight_force(damper, driving, samples, sensors, state, shown, beside);
 }
 
-bool DrivenPlant::run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,
-                                     std::size_t samples, std::span<const PlantSensorPlace> sensors,
+bool DrivenPlant::run(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
+                      std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                      std::span<double> state, std::vector<std::vector<double>>& shown) const {
+  assert(dampers.size() == dampers_.size() && driving.method == PlantMethod::RungeKutta);
+  shown.assign(sensors.size(), std::vector<double>(samples));
+  return run_by_runge_kutta(dampers, driving, samples, sensors, state, shown);
+}
+
+bool DrivenPlant::run_by_runge_kutta(std::span<const DamperModel* const> dampers,
+                                     const PlantDriving& driving, std::size_t samples,
+                                     std::span<const PlantSensorPlace> sensors,
                                      std::span<double> state,
                                      std::vector<std::vector<double>>& shown) const {
   using States = std::array<double, kMostStates>;
-  const std::size_t count = 2 * size_ + dampers_.size() * damper.state_size();
+  const std::size_t count = state.size();
   const double h = driving.sample_time / static_cast<double>(driving.steps);
   States first, second, third, fourth, between;
   Forces forces, on_the_way;
@@ -251,16 +270,16 @@ bool DrivenPlant::run_by_runge_kutta(const DamperModel& damper, const PlantDrivi
 
   // The inputs are known at the start, middle and end of every step.
   for (std::size_t point = 0, step = 0;; point += 2, ++step) {
-    rates(damper, driving, point, state.data(), first.data(), forces);
+    rates(dampers, driving, point, state.data(), first.data(), forces);
     if (step % driving.steps == 0) {
       const std::size_t sample = step / driving.steps;
       if (!show(driving, sample, sensors, state.data(), first.data() + size_, forces.data(), shown))
         return false;
       if (sample + 1 == samples) return true;
     }
-    rates(damper, driving, point + 1, moved(first, h / 2), second.data(), on_the_way);
-    rates(damper, driving, point + 1, moved(second, h / 2), third.data(), on_the_way);
-    rates(damper, driving, point + 2, moved(third, h), fourth.data(), on_the_way);
+    rates(dampers, driving, point + 1, moved(first, h / 2), second.data(), on_the_way);
+    rates(dampers, driving, point + 1, moved(second, h / 2), third.data(), on_the_way);
+    rates(dampers, driving, point + 2, moved(third, h), fourth.data(), on_the_way);
     for (std::size_t k = 0; k < count; ++k)
       state[k] += h / 6 * (first[k] + 2 * (second[k] + third[k]) + fourth[k]);
   }

@@ -121,6 +121,12 @@ class DrivenPlant {
   bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, std::span<double> state,
            std::vector<std::vector<double>>& shown, const RunBeside& beside = {}) const;
+  /// The same with a damper of its own in each strut, each of which flows, by Runge-Kutta alone;
+  /// the states of one follow those of the other.
+  std::vector<double> at_rest(std::span<const DamperModel* const> dampers, double drive) const;
+  bool run(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
+           std::size_t samples, std::span<const PlantSensorPlace> sensors, std::span<double> state,
+           std::vector<std::vector<double>>& shown) const;
   /// Brings the states of each damper over the sample before the first one, at the velocity of
   /// that: what a sharp hysteresis forgets at once is then no leap within the first step.
   void settle(const DamperModel& damper, const PlantDriving& driving,
@@ -147,7 +153,7 @@ class DrivenPlant {
       2 * kMostCoordinates + kMostDampers * kMostDamperStates;
   using Forces = std::array<double, kMostDampers>;
 
-  bool run_by_runge_kutta(const DamperModel& damper, const PlantDriving& driving,
+  bool run_by_runge_kutta(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
                           std::size_t samples, std::span<const PlantSensorPlace> sensors,
                           std::span<double> state, std::vector<std::vector<double>>& shown) const;
   bool run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
@@ -160,8 +166,8 @@ class DrivenPlant {
             std::span<const PlantSensorPlace> sensors, const double* state,
             const double* acceleration, const double* forces,
             std::vector<std::vector<double>>& shown) const;
-  void rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
-             const double* state, double* out, Forces& forces) const;
+  void rates(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
+             std::size_t point, const double* state, double* out, Forces& forces) const;
   DamperInput damper_input(const DamperPlace& place, const PlantDriving& driving, std::size_t point,
                            const double* state) const;
 

@@ -1,6 +1,7 @@
 #include "dashpot/machine/virtual_campaign.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -165,10 +166,20 @@ InPlantSetup with_grade(InPlantSetup setup, const SensorGrade& grade) {
 std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const DamperModel& damper,
                                           const VirtualCampaignOptions& options) {
   require_setup(setup);
+  return virtual_campaign(setup, std::vector<const DamperModel*>(setup.dampers(), &damper),
+                          options);
+}
+
+std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
+                                          std::span<const DamperModel* const> dampers,
+                                          const VirtualCampaignOptions& options) {
+  require_setup(setup);
+  assert(dampers.size() == setup.dampers());
   if (!setup.unknown.empty())
     throw Error("plant, " + setup.unknown.front().name, "is unknown", "its true value");
-  if (!damper.flows())
-    throw Error(damper.name(), "its states have no rates", "a published parameter set");
+  for (const DamperModel* damper : dampers)
+    if (!damper->flows())
+      throw Error(damper->name(), "its states have no rates", "a published parameter set");
   const Plant plant = make_plant(*setup.model, setup.known);
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
@@ -198,15 +209,20 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const Dampe
     const std::uint64_t seed = options.seed + 1000 * r;
 
     // The run, from rest, in which the springs bear what the damper has at rest.
-    const std::unique_ptr<DamperModel> mounted = damper.with_offset(-force_at_rest(damper, level));
+    std::vector<std::unique_ptr<DamperModel>> mounted;
+    std::vector<const DamperModel*> models;
+    for (const DamperModel* damper : dampers) {
+      mounted.push_back(damper->with_offset(-force_at_rest(*damper, level)));
+      models.push_back(mounted.back().get());
+    }
     const bool is_pushed = setup.inputs.front().place.kind == PlantInput::Force;
     const double usual = is_pushed ? 0.3 * plant.mass.front() : 1;  // N by kg, m/s^2
     PlantDriving driving =
         driving_of(setup, plant, options, level, options.push > 0 ? options.push : usual, seed);
     if (options.hold > 0) switch_levels(options, driving);
-    std::vector<double> state = equations.at_rest(*mounted, level);
+    std::vector<double> state = equations.at_rest(models, level);
     std::vector<std::vector<double>> shown;
-    if (!equations.run(*mounted, driving, driving.samples, places, state, shown))
+    if (!equations.run(models, driving, driving.samples, places, state, shown))
       throw Error("the ride at " + format_number(level) + " " + to_string(setup.drive_unit),
                   "diverges", "another damper, a lower level");
 

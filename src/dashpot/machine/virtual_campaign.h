@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ struct VirtualRide {
 /// same rides. Throws Error where a number is unknown, where the damper's states have no rates, and
 /// where a ride diverges.
 std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const DamperModel& damper,
+                                          const VirtualCampaignOptions& options);
+/// The same with a damper of its own in each strut, in their order.
+std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
+                                          std::span<const DamperModel* const> dampers,
                                           const VirtualCampaignOptions& options);
 
 }  // namespace dashpot

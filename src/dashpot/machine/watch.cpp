@@ -1,12 +1,15 @@
 #include "dashpot/machine/watch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/distributions.h"
+#include "dashpot/plant.h"
 
 namespace dashpot {
 namespace {
@@ -38,16 +41,16 @@ InPlantSetup as_begun(InPlantSetup setup) {
 }
 
 /// The plant as it is stated, before its days are looked at.
-WatchedPlant as_stated(std::shared_ptr<const DamperModel> damper, const Domain& domain,
-                       InPlantSetup setup, const WatchOptions& options) {
+WatchedPlant as_stated(ObservedDampers dampers, InPlantSetup setup, const WatchOptions& options) {
   require_setup(setup);
   require_watchable(setup, options);
+  assert(dampers.size() == setup.dampers());
   begin_unknowns(setup);
-  const double drive = setup.drive.empty() ? setup.level : domain.current_min;
-  WatchedPlant watched{.damper = mounted(std::move(damper), drive),
-                       .domain = domain,
-                       .setup = std::move(setup),
-                       .level = options.level};
+  for (ObservedDamper& one : dampers)
+    one.model =
+        mounted(std::move(one.model), setup.drive.empty() ? setup.level : one.domain.current_min);
+  WatchedPlant watched{
+      .dampers = std::move(dampers), .setup = std::move(setup), .level = options.level};
   for (const std::string& name : options.wears)
     watched.wears.push_back(&find_wear(name, "tracked"));
   return watched;
@@ -60,10 +63,73 @@ ChartOptions share_of(const WatchOptions& options, std::size_t charts) {
   return chart;
 }
 
+/// What the reference days together tell: the mean of what each leaves open.
+std::vector<WearOutlook> mean_of(const std::vector<std::vector<WearOutlook>>& days) {
+  std::vector<WearOutlook> mean = days.front();
+  for (std::size_t a = 0; a < mean.size(); ++a) {
+    double squares = 0, alone = 0;
+    for (const std::vector<WearOutlook>& day : days) {
+      squares += day[a].deviation * day[a].deviation / static_cast<double>(days.size());
+      alone += day[a].alone * day[a].alone / static_cast<double>(days.size());
+    }
+    mean[a].deviation = std::sqrt(squares);
+    mean[a].alone = std::sqrt(alone);
+  }
+  return mean;
+}
+
+/// "18 %", or with its unit.
+std::string amount_words(double value, const WatchedQuantity& q) {
+  return q.unit == "1" ? format_number(100 * value, 2) + " %"
+                       : format_number(value, 2) + " " + q.unit;
+}
+
+/// "front_force +-18 %, +-2 % if rear_force were known"
+std::string outlook_words(const std::vector<WatchedQuantity>& quantities, const WearOutlook& one,
+                          const WatchedQuantity& q) {
+  return q.name + " +-" + amount_words(kNormal95 * one.deviation, q) + ", +-" +
+         amount_words(kNormal95 * one.alone, q) + " if " + quantities[one.like].name +
+         " were known";
+}
+
+/// Refuses what no day can tell: half of a damper's force lies within what is open.
+void require_told(const WatchedPlant& watched) {
+  constexpr double kMost = 25;  // usual amounts: half of the force
+  const std::vector<WatchedQuantity> quantities = watched_quantities(watched);
+  for (std::size_t a = 0; a < watched.outlook.size(); ++a) {
+    const WearOutlook& one = watched.outlook[a];
+    const double most = kMost * watched.wears[a % watched.wears.size()]->usual;
+    if (kNormal95 * one.deviation < most) continue;
+    const bool is_alone = !(kNormal95 * one.alone < most);
+    throw Error("plant, sensors",
+                is_alone ? "do not tell " + quantities[a].name + ": no day shows whether it fades"
+                         : "cannot tell " + quantities[a].name + " from " +
+                               quantities[one.like].name + ": a day of the first ones leaves " +
+                               outlook_words(quantities, one, quantities[a]) + " (95 %)",
+                "a sensor of each damper's own: its deflection, its wheel's acceleration");
+  }
+}
+
 }  // namespace
 
+std::vector<std::string> hardly_apart(const WatchedPlant& watched) {
+  constexpr double kHardly = 3;
+  const std::vector<WatchedQuantity> quantities = watched_quantities(watched);
+  std::vector<std::string> sentences;
+  for (std::size_t a = 0; a < watched.outlook.size(); ++a) {
+    const WearOutlook& one = watched.outlook[a];
+    if (one.deviation < kHardly * one.alone) continue;
+    sentences.push_back(
+        "the sensors hardly tell " + quantities[a].name + " from " + quantities[one.like].name +
+        ", and a fade of one may be called one of the other: a day leaves " +
+        outlook_words(quantities, one, quantities[a]) +
+        " (95 %); a sensor of each damper's own, as its deflection, would tell them apart");
+  }
+  return sentences;
+}
+
 void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
-  require_one_damper(setup, "'watch'");
+  require_no_follower(setup, "'watch'");
   const auto follows = [&](const char* name) {
     return std::ranges::find(options.wears, name) != options.wears.end();
   };
@@ -84,15 +150,17 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
     throw Error("level", "'" + options.level + "' is no sensor of the plant");
 }
 
-WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Domain& domain,
-                           InPlantSetup setup, const std::vector<PlantRecording>& reference,
+WatchedPlant watched_plant(ObservedDampers dampers, InPlantSetup setup,
+                           const std::vector<PlantRecording>& reference,
                            const WatchOptions& options) {
   constexpr int kRounds = 2;
   if (reference.empty()) throw Error("recordings", "there are none", "name at least one");
-  WatchedPlant watched = as_stated(std::move(damper), domain, std::move(setup), options);
+  WatchedPlant watched = as_stated(std::move(dampers), std::move(setup), options);
   watched.sample_time = reference.front().sample_time;
 
   // The uncertainties by the plant's numbers, these by the uncertainties, and once more.
+  const bool has_several = watched.dampers.size() > 1;
+  std::vector<std::vector<WearOutlook>> outlooks(reference.size());
   for (int round = 0; round < kRounds; ++round) {
     Monitor monitor = options.monitor;
     monitor.on_progress = [&, round](const Progress& own) {
@@ -100,19 +168,23 @@ WatchedPlant watched_plant(std::shared_ptr<const DamperModel> damper, const Doma
         options.monitor.on_progress({own.stage, kPreparation * (round + own.fraction) / kRounds});
     };
     const ObserveReport observed =
-        observe(watched.damper, domain, as_begun(watched.setup), reference,
+        observe(watched.dampers, as_begun(watched.setup), reference,
                 {.causal = true, .threads = options.threads, .monitor = monitor});
     watched.noise = observed.noise;
     watched.steps = observed.steps;
     std::vector<DayEstimate> days(reference.size());
-    parallel_for(days.size(), options.threads,
-                 [&](std::size_t d) { days[d] = estimate_day(watched, reference[d]); });
+    parallel_for(days.size(), options.threads, [&](std::size_t d) {
+      days[d] = estimate_day(watched, reference[d], has_several ? &outlooks[d] : nullptr);
+    });
     for (std::size_t k = 0; k < watched.setup.unknown.size(); ++k) {
       std::vector<double> values;
       for (const DayEstimate& day : days) values.push_back(day.plant[k]);
       watched.setup.unknown[k].about = median_of(values);
     }
   }
+  if (!has_several) return watched;
+  watched.outlook = mean_of(outlooks);
+  require_told(watched);
   return watched;
 }
 
@@ -127,23 +199,35 @@ WatchedDay watch_day(const WatchedPlant& watched, const PlantRecording& recordin
   return day;
 }
 
+std::vector<WatchedQuantity> watched_quantities(const WatchedPlant& watched) {
+  std::vector<WatchedQuantity> quantities;
+  const std::vector<std::string> struts = observer_names(watched.setup).struts;
+  for (const std::string& strut : struts)
+    for (const Wear* wear : watched.wears) {
+      if (struts.size() == 1) {
+        quantities.push_back({wear->name, wear->unit, wear->meaning, quantities.size()});
+        continue;
+      }
+      constexpr std::string_view kWhose = "the damper's";
+      std::string meaning = wear->meaning;
+      meaning.replace(meaning.find(kWhose), kWhose.size(), "the " + strut + " damper's");
+      quantities.push_back(
+          {strut + "_" + wear->name, wear->unit, std::move(meaning), quantities.size(), strut});
+    }
+  for (const PlantSensor& sensor : watched.setup.sensors)
+    if (!watched.level.empty() && sensor.channel == watched.level)
+      quantities.push_back({watched.level, unit_of(sensor.place.quantity),
+                            "the mean of " + watched.level, quantities.size()});
+  return quantities;
+}
+
 std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
                                           const std::vector<WatchedDay>& days,
                                           const WatchOptions& options) {
-  std::vector<WatchedQuantity> quantities;
-  for (const Wear* wear : watched.wears)
-    quantities.push_back({wear->name, wear->unit, wear->meaning, quantities.size(), {}});
-  if (!watched.level.empty())
-    for (const PlantSensor& sensor : watched.setup.sensors)
-      if (sensor.channel == watched.level)
-        quantities.push_back({watched.level,
-                              unit_of(sensor.place.quantity),
-                              "the mean of " + watched.level,
-                              quantities.size(),
-                              {}});
-
+  std::vector<WatchedQuantity> quantities = watched_quantities(watched);
+  const std::size_t amounts = quantities.size() - (watched.level.empty() ? 0 : 1);
   for (WatchedQuantity& quantity : quantities) {
-    const bool is_level = quantity.place >= watched.wears.size();
+    const bool is_level = quantity.place >= amounts;
     std::vector<ChartDay> values;
     for (const WatchedDay& day : days) {
       // Nothing follows from a day without any motion, which states of before may hold.
@@ -160,22 +244,45 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
   return quantities;
 }
 
+const WatchedQuantity* first_alarm_of(const std::vector<WatchedQuantity>& quantities) {
+  const WatchedQuantity* first = nullptr;
+  const auto beyond = [](const WatchedQuantity& q) {
+    return q.chart.points[*q.chart.alarm].sum / q.chart.threshold;
+  };
+  for (const WatchedQuantity& q : quantities) {
+    if (!q.chart.alarm) continue;
+    const bool is_other = first && q.strut != first->strut;
+    if (!first || *q.chart.alarm < *first->chart.alarm ||
+        (is_other && *q.chart.alarm == *first->chart.alarm && beyond(q) > beyond(*first)))
+      first = &q;
+  }
+  return first;
+}
+
 Value found_of(const WatchedPlant& watched) {
   Value plant = Value::object(), errors = Value::array();
   for (const PlantUnknown& unknown : watched.setup.unknown) plant.add(unknown.name, *unknown.about);
   for (const ForceError& one : watched.noise.force)
     errors.push_back(Value::array(std::vector<double>{one.deviation, one.memory}));
-  return Value::object({{"plant", std::move(plant)},
-                        {"force_errors", std::move(errors)},
-                        {"sensor_noise", Value::array(watched.noise.sensors)},
-                        {"roughness", watched.noise.roughness},
-                        {"steps", watched.steps},
-                        {"sample_time", watched.sample_time}});
+  Value found = Value::object({{"plant", std::move(plant)},
+                               {"force_errors", std::move(errors)},
+                               {"sensor_noise", Value::array(watched.noise.sensors)},
+                               {"roughness", watched.noise.roughness},
+                               {"steps", watched.steps},
+                               {"sample_time", watched.sample_time}});
+  if (watched.outlook.empty()) return found;
+  Value outlook = Value::array();
+  for (const WearOutlook& one : watched.outlook)
+    outlook.push_back(Value::object({{"deviation", one.deviation},
+                                     {"alone", one.alone},
+                                     {"like", static_cast<double>(one.like)}}));
+  found.add("outlook", std::move(outlook));
+  return found;
 }
 
-WatchedPlant watched_again(std::shared_ptr<const DamperModel> damper, const Domain& domain,
-                           InPlantSetup setup, const Value& found, const WatchOptions& options) {
-  WatchedPlant watched = as_stated(std::move(damper), domain, std::move(setup), options);
+WatchedPlant watched_again(ObservedDampers dampers, InPlantSetup setup, const Value& found,
+                           const WatchOptions& options) {
+  WatchedPlant watched = as_stated(std::move(dampers), std::move(setup), options);
   ObjectReader reader(found, "what was found of a watched plant");
   const Value& plant = reader.required("plant");
   for (PlantUnknown& unknown : watched.setup.unknown) {
@@ -193,6 +300,19 @@ WatchedPlant watched_again(std::shared_ptr<const DamperModel> damper, const Doma
   watched.noise.roughness = reader.number("roughness");
   watched.steps = static_cast<int>(reader.number("steps"));
   watched.sample_time = reader.number("sample_time", 0);
+  const std::size_t amounts =
+      watched.dampers.size() > 1 ? watched.dampers.size() * watched.wears.size() : 0;
+  if (amounts > 0) {
+    for (const Value& one : reader.required("outlook").items()) {
+      ObjectReader own(one, "what a day tells of an amount");
+      watched.outlook.push_back({.deviation = own.number("deviation"),
+                                 .alone = own.number("alone"),
+                                 .like = static_cast<std::size_t>(own.number("like"))});
+      own.finish();
+      if (watched.outlook.back().like >= amounts) throw Error(one.where(), "is of no amount");
+    }
+    if (watched.outlook.size() != amounts) throw Error(found.where(), "is of other dampers");
+  }
   reader.finish();
   return watched;
 }

@@ -33,12 +33,7 @@ Value day_json(const Watched& watched, std::size_t d) {
 
 }  // namespace
 
-const WatchedQuantity* Watched::first_alarm() const {
-  const WatchedQuantity* first = nullptr;
-  for (const WatchedQuantity& q : quantities)
-    if (q.chart.alarm && (!first || *q.chart.alarm < *first->chart.alarm)) first = &q;
-  return first;
-}
+const WatchedQuantity* Watched::first_alarm() const { return first_alarm_of(quantities); }
 
 bool Watched::is_judged(std::size_t day) const {
   return quantities.front().chart.points[day].is_judged;
@@ -61,6 +56,7 @@ Value to_json(const Watched& watched) {
   for (const WatchedQuantity& q : watched.quantities) {
     Value chart =
         Value::object({{"quantity", q.name}, {"unit", q.unit}, {"threshold", q.chart.threshold}});
+    if (!q.strut.empty()) chart.add("damper", q.strut);
     if (q.chart.alarm) {
       chart.add("alarm", watched.days[*q.chart.alarm].estimate.name);
       chart.add("since", watched.days[q.chart.since].estimate.name);
@@ -70,15 +66,28 @@ Value to_json(const Watched& watched) {
     charts.push_back(std::move(chart));
   }
   for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
-  return Value::object({{"plant", watched.plant.setup.model->name},
-                        {"noise", identified_noise_words(watched.plant.setup)},
-                        {"damper", watched.plant.damper->name()},
-                        {"alarm", watched.first_alarm() != nullptr},
-                        {"days_between_false_alarms", watched.options.chart.days},
-                        {"reference_days", watched.options.chart.reference},
-                        {"found", found_of(watched.plant)},
-                        {"charts", std::move(charts)},
-                        {"days", std::move(days)}});
+  Value told = Value::object({{"plant", watched.plant.setup.model->name},
+                              {"noise", identified_noise_words(watched.plant.setup)}});
+  const WatchedQuantity* alarm = watched.first_alarm();
+  const ObservedDampers& dampers = watched.plant.dampers;
+  if (dampers.size() == 1) {
+    told.add("damper", dampers.front().model->name());
+  } else {
+    Value named = Value::object(), doubts = Value::array();
+    const std::vector<std::string> struts = observer_names(watched.plant.setup).struts;
+    for (std::size_t d = 0; d < dampers.size(); ++d) named.add(struts[d], dampers[d].model->name());
+    for (std::string& sentence : hardly_apart(watched.plant)) doubts.push_back(std::move(sentence));
+    told.add("dampers", std::move(named));
+    told.add("hardly_apart", std::move(doubts));
+    if (alarm) told.add("first_alarm", alarm->name);
+  }
+  told.add("alarm", alarm != nullptr);
+  told.add("days_between_false_alarms", watched.options.chart.days);
+  told.add("reference_days", watched.options.chart.reference);
+  told.add("found", found_of(watched.plant));
+  told.add("charts", std::move(charts));
+  told.add("days", std::move(days));
+  return told;
 }
 
 }  // namespace dashpot

@@ -13,7 +13,7 @@ struct Watched {
   const std::vector<WatchedQuantity>& quantities;
   const WatchOptions& options;
 
-  /// The quantity whose alarm came first; null: none has.
+  /// As first_alarm_of().
   const WatchedQuantity* first_alarm() const;
   bool is_judged(std::size_t day) const;
   /// What is to be said of a day: "ALARM: force", "reference", "does not count: not converged".
