@@ -302,8 +302,9 @@ dashpot_status dashpot_observe(const dashpot_model* model, const dashpot_rides* 
     require(estimates, "estimates");
     *estimates = nullptr;
     InPlantSetup setup = setup_of(plant);
-    observe_rides(in_each_strut(model, setup), rides, std::move(setup),
-                  read_observe_options(options), monitor, estimates, report);
+    const PlacedModels models = in_each_strut(model, setup);
+    observe_rides(models, rides, std::move(setup), read_observe_options(options), monitor,
+                  estimates, report);
   });
 }
 
@@ -316,8 +317,9 @@ dashpot_status dashpot_observe_dampers(const dashpot_placed_model* dampers, size
     require(estimates, "estimates");
     *estimates = nullptr;
     InPlantSetup setup = setup_of(plant);
-    observe_rides(by_struts(dampers, count, setup), rides, std::move(setup),
-                  read_observe_options(options), monitor, estimates, report);
+    const PlacedModels models = by_struts(dampers, count, setup);
+    observe_rides(models, rides, std::move(setup), read_observe_options(options), monitor,
+                  estimates, report);
   });
 }
 
@@ -328,8 +330,9 @@ dashpot_status dashpot_watch(const dashpot_model* model, const dashpot_rides* ri
     require(report, "report");
     *report = nullptr;
     InPlantSetup setup = setup_of(plant);
-    *report = copy_text(watch_rides(in_each_strut(model, setup), rides, std::move(setup),
-                                    read_watch_options(options), monitor));
+    const PlacedModels models = in_each_strut(model, setup);
+    *report = copy_text(
+        watch_rides(models, rides, std::move(setup), read_watch_options(options), monitor));
   });
 }
 
@@ -341,7 +344,8 @@ dashpot_status dashpot_watch_dampers(const dashpot_placed_model* dampers, size_t
     require(report, "report");
     *report = nullptr;
     InPlantSetup setup = setup_of(plant);
-    *report = copy_text(watch_rides(by_struts(dampers, count, setup), rides, std::move(setup),
-                                    read_watch_options(options), monitor));
+    const PlacedModels models = by_struts(dampers, count, setup);
+    *report = copy_text(
+        watch_rides(models, rides, std::move(setup), read_watch_options(options), monitor));
   });
 }

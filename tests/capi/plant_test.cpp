@@ -23,6 +23,17 @@ const char* const kPushedMass =
     "  - {channel: x, quantity: displacement, at: mass, noise: 0.01 mm}\n"
     "  - {channel: a, quantity: acceleration, at: mass, noise: 0.01}\n";
 
+const char* const kTwoDampers =
+    "plant: matrices\ncoordinates: [floor, table]\n"
+    "mass: [[100 kg, 0], [0, 60 kg]]\n"
+    "stiffness: [[60 kN/m, -20 kN/m], [-20 kN/m, 20 kN/m]]\n"
+    "dampers: [{name: low, from: ground, to: floor}, {name: high, from: floor, to: table}]\n"
+    "inputs: [{channel: push, kind: force, at: floor, noise: 1}]\n"
+    "sensors:\n"
+    "  - {channel: x, quantity: displacement, at: table, noise: 0.01 mm}\n"
+    "  - {channel: a, quantity: acceleration, at: floor, noise: 0.01}\n"
+    "voltage: 1 V\n";
+
 /// A mass of 10 kg with c = 40 N*s/m and a Coulomb force of 8 N, pushed at random.
 dashpot::Record pushed_mass() {
   const dashpot::Law& law = dashpot::find_law("bingham");
@@ -38,11 +49,12 @@ dashpot::Record pushed_mass() {
       .recorded;
 }
 
-dashpot_status add(dashpot_rides* rides, const dashpot::Record& record) {
+dashpot_status add(dashpot_rides* rides, const dashpot::Record& record,
+                   const char* name = "pushed") {
   const dashpot_named_column columns[] = {{"push [N]", {record.channel("push").samples.data(), 1}},
                                           {"x [m]", {record.channel("x").samples.data(), 1}},
                                           {"a", {record.channel("a").samples.data(), 1}}};
-  const dashpot_table table = {"pushed", record.size(), record.sample_time, columns, 3, nullptr};
+  const dashpot_table table = {name, record.size(), record.sample_time, columns, 3, nullptr};
   return dashpot_rides_add(rides, &table);
 }
 
@@ -90,19 +102,9 @@ TEST_CASE("a damper inside a plant: identified from arrays, then observed") {
 }
 
 TEST_CASE("dampers inside a plant: the force of each is observed by its strut's name") {
-  const char* const both =
-      "plant: matrices\ncoordinates: [floor, table]\n"
-      "mass: [[100 kg, 0], [0, 60 kg]]\n"
-      "stiffness: [[60 kN/m, -20 kN/m], [-20 kN/m, 20 kN/m]]\n"
-      "dampers: [{name: low, from: ground, to: floor}, {name: high, from: floor, to: table}]\n"
-      "inputs: [{channel: push, kind: force, at: floor, noise: 1}]\n"
-      "sensors:\n"
-      "  - {channel: x, quantity: displacement, at: table, noise: 0.01 mm}\n"
-      "  - {channel: a, quantity: acceleration, at: floor, noise: 0.01}\n"
-      "voltage: 1 V\n";
   const Model model = published("spencer1997");
   const dashpot::VirtualRide ride =
-      dashpot::virtual_campaign(dashpot::parse_in_plant_setup(both, "plant"),
+      dashpot::virtual_campaign(dashpot::parse_in_plant_setup(kTwoDampers, "plant"),
                                 dashpot::load_parameters("spencer1997"),
                                 {.duration = 2, .sample_rate = 200, .levels = {1}, .push = 300})
           .front();
@@ -110,7 +112,7 @@ TEST_CASE("dampers inside a plant: the force of each is observed by its strut's 
   REQUIRE(dashpot_rides_new(&rides) == DASHPOT_OK);
   REQUIRE(add(rides, ride.recorded) == DASHPOT_OK);
   Recordings estimates;
-  REQUIRE(dashpot_observe(model, rides, both, R"({"force_error": [[5, 0.02]], "steps": 4})",
+  REQUIRE(dashpot_observe(model, rides, kTwoDampers, R"({"force_error": [[5, 0.02]], "steps": 4})",
                           nullptr, &estimates, nullptr) == DASHPOT_OK);
   for (const std::size_t damper : {0u, 1u}) {
     dashpot_channel force;
@@ -124,6 +126,73 @@ TEST_CASE("dampers inside a plant: the force of each is observed by its strut's 
     }
     CHECK(error < 0.01 * size);
   }
+
+  // A model for each, in any order, tells the same.
+  const dashpot_placed_model each[] = {{"high", model}, {"low", model}};
+  Recordings placed;
+  REQUIRE(dashpot_observe_dampers(each, 2, rides, kTwoDampers,
+                                  R"({"force_error": [[5, 0.02]], "steps": 4})", nullptr, &placed,
+                                  nullptr) == DASHPOT_OK);
+  dashpot_channel once, twice;
+  REQUIRE(dashpot_recordings_channel(estimates, 0, 2, &once) == DASHPOT_OK);
+  REQUIRE(dashpot_recordings_channel(placed, 0, 2, &twice) == DASHPOT_OK);
+  CHECK(std::equal(once.data, once.data + 400, twice.data));
+}
+
+TEST_CASE("dampers inside a plant, watched: which of them fades, and what is said of the days" *
+          doctest::test_suite("long")) {
+  const Model model = published("kwok2006");
+  std::string plant = kTwoDampers;
+  plant.replace(plant.find("voltage: 1 V"), 12, "current: 0 A");
+  const auto truth = dashpot::mounted(
+      std::make_shared<dashpot::LawModel>(dashpot::load_parameters("kwok2006")), 0);
+  Rides rides;
+  REQUIRE(dashpot_rides_new(&rides) == DASHPOT_OK);
+  for (int day = 1; day <= 10; ++day) {
+    const dashpot::WornDamper low(truth,
+                                  {{&dashpot::find_wear("force", "test"), day > 8 ? -0.3 : 0.0}});
+    const auto ride =
+        dashpot::virtual_campaign(dashpot::parse_in_plant_setup(plant, "plant"),
+                                  std::vector<const dashpot::DamperModel*>{&low, truth.get()},
+                                  {.duration = 4,
+                                   .sample_rate = 200,
+                                   .levels = {0},
+                                   .push = 800,
+                                   .seed = static_cast<std::uint64_t>(day)});
+
+    // The last comes under the name of an earlier one.
+    const std::string name = "day_" + std::to_string(day < 10 ? day + 1 : 1) + ".csv";
+    REQUIRE(add(rides, ride.front().recorded, name.c_str()) == DASHPOT_OK);
+  }
+  const char* const options = R"({"reference": 6, "false_alarms": 0.01})";
+  const dashpot_placed_model each[] = {{"high", model}, {"low", model}};
+  Text report;
+  REQUIRE(dashpot_watch_dampers(each, 2, rides, plant.c_str(), options, nullptr, &report) ==
+          DASHPOT_OK);
+  const dashpot::Value told = dashpot::parse_json(report.handle, "report");
+  CHECK(told.find("first_alarm")->as_string() == "low_force");
+  REQUIRE(told.find("charts")->items().size() == 2);
+  CHECK(!told.find("charts")->items()[1].find("alarm"));
+  REQUIRE(told.find("warnings")->items().size() == 1);
+  CHECK(contains(told.find("warnings")->items()[0].as_string(),
+                 "day_1.csv comes behind day_10.csv, and its name says before"));
+
+  // One model stands in each strut.
+  Text alike;
+  REQUIRE(dashpot_watch(model, rides, plant.c_str(), options, nullptr, &alike) == DASHPOT_OK);
+  CHECK(std::string(alike.handle) == report.handle);
+
+  // What cannot be.
+  char* none = nullptr;
+  const auto refusal = [&](const std::vector<dashpot_placed_model>& dampers) {
+    return message_of(DASHPOT_BAD_INPUT,
+                      dashpot_watch_dampers(dampers.data(), dampers.size(), rides, plant.c_str(),
+                                            options, nullptr, &none));
+  };
+  CHECK(contains(refusal({{"low", model}}), "the damper 'high' has no model"));
+  CHECK(contains(refusal({{"low", model}, {"hihg", model}}), "the plant has no damper 'hihg'"));
+  CHECK(contains(refusal({{"low", model}, {"low", model}}), "the damper 'low' has two models"));
+  CHECK(contains(refusal({{"low", model}, {nullptr, model}}), "strut"));
 }
 
 TEST_CASE("a damper inside a plant, watched: a state stands for the days before" *

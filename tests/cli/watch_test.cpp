@@ -184,7 +184,7 @@ TEST_CASE("watch: of two dampers it says which one fades, and by how much" *
   const ProgramResult faded = stdout_of_dashpot(words);
   const Value told = parse_json(faded.output, "stdout");
   CHECK(told.find("first_alarm")->as_string() == "high_force");
-  CHECK(told.find("dampers")->find("low")->as_string() == "kwok2006");
+  CHECK(told.find("dampers")->find("low")->as_string() == "tanh_kwok");
   CHECK(told.find("hardly_apart")->items().empty());
   const auto& charts = told.find("charts")->items();
   REQUIRE(charts.size() == 2);

@@ -1,5 +1,6 @@
 import json
 import unittest
+import warnings
 
 import numpy as np
 from support import InFolder, program
@@ -77,8 +78,18 @@ class InsideAPlant(InFolder):
         with self.assertRaisesRegex(dashpot.Error, "is of another level"):
             dashpot.watch(model, weak, plant, state=state, level="x", **choices)
 
-    def test_two_dampers(self):
-        rig = {
+        # Names that tell another order are warned of.
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            later = [self.folder / "day_10.csv", self.folder / "day_2.csv"]
+            for path in later:
+                path.write_text(weak[0].read_text())
+            told = dashpot.watch(model, later, plant, **choices)
+        self.assertEqual(len(told.warnings), 1)
+        self.assertIn("day_2.csv comes behind day_10.csv", str(said[0].message))
+
+    def rig(self):
+        return {
             "plant": "matrices",
             "coordinates": ["floor", "table"],
             "mass": [["100 kg", 0], [0, "60 kg"]],
@@ -94,6 +105,31 @@ class InsideAPlant(InFolder):
             ],
             "voltage": "coil",
         }
+
+    def test_two_dampers_watched(self):
+        rig = dict(self.rig(), current="0 A")
+        del rig["voltage"]
+        plant = self.folder / "rig.json"
+        plant.write_text(json.dumps(rig))
+        days = []
+        for day in range(1, 10):
+            worn = ["--wear", "high_force=-0.3"] if day > 7 else []
+            words = ["--damper", "kwok2006", "--duration", "4", "--push", "800", "--sample-rate", "200", "--seed", day]
+            program("bench", "--in", plant, *words, *worn, "--output", self.folder / f"day_{day}")
+            days.append(self.folder / f"day_{day}" / "ride_1.csv")
+        model = dashpot.published("kwok2006")
+        each = {"high": model, "low": model}
+        told = dashpot.watch(each, days, rig, reference=6, false_alarms=0.01)
+        self.assertEqual(told.alarm["quantity"], "high_force")
+        self.assertAlmostEqual(told.alarm["fall"], 0.3, delta=0.06)
+        self.assertEqual(told.report["dampers"], {"low": "tanh_kwok", "high": "tanh_kwok"})
+        with self.assertRaisesRegex(dashpot.Error, "the damper 'low' has no model"):
+            dashpot.watch({"high": model}, days, rig)
+        with self.assertRaisesRegex(TypeError, "model: is a str"):
+            dashpot.watch({"high": model, "low": "model.json"}, days, rig)
+
+    def test_two_dampers(self):
+        rig = self.rig()
         plant = self.folder / "rig.json"
         plant.write_text(json.dumps(rig))
         words = ["--damper", "spencer1997", "--levels", "1", "--duration", "2", "--push", "300", "--sample-rate", "200"]
