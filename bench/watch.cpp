@@ -454,12 +454,12 @@ void print_delays(const WatchedCar& car, const std::vector<std::vector<WatchedDa
 void print_rates(const WatchedCar& car, const std::string& path) {
   const Store store(path, kDaysFormat);
   const std::vector<std::vector<WatchedDay>> days = days_of(car, store);
+  if (car.is_half) print_amounts(car, days);
   if (days[0].size() <= 2 * kReference) throw Error(path, "holds too few healthy days");
   std::size_t converged = 0;
   for (const WatchedDay& day : days[0]) converged += day.estimate.converged;
   fmt::print("{} healthy days, {} converged\n", days[0].size(), converged);
   print_scatter(car, days[0]);
-  if (car.is_half) print_amounts(car, days);
   print_false_alarms(car, days[0]);
   for (std::size_t kind = 1; kind < days.size(); ++kind)
     for (const double stated : {100.0, 1000.0})

@@ -332,6 +332,33 @@ TEST_CASE("several dampers watched: a chart each, which share the stated rate") 
   CHECK(first_alarm_of(both) == &both[0]);
 }
 
+TEST_CASE("several dampers watched: any alarm of healthy days as often as is stated") {
+  const WatchedPlant watched = watched_rig(two_dampers(kLowAndHigh, kBothMasses));
+  const WatchOptions options{
+      .wears = {"force"},
+      .chart = {.reference = 10, .days = 60, .threshold = cusum_threshold(0.5, 2 * 60)}};
+  constexpr int kRuns = 1500;
+  double judged = 0;
+  int alarms = 0;
+  Random random(6);
+  for (int run = 0; run < kRuns; ++run) {
+    // What is taken from one damper is given to the other, as where they are hard to tell apart.
+    std::vector<WatchedDay> days(110);
+    for (WatchedDay& day : days) {
+      const double shared = random.normal();
+      day.estimate = {
+          .wear = {0.01 * (random.normal() + shared), 0.01 * (random.normal() - shared)},
+          .excitation = std::exp(0.3 * random.normal()),
+          .converged = true};
+    }
+    const std::vector<WatchedQuantity> charts = watch_charts(watched, days, options);
+    const WatchedQuantity* first = first_alarm_of(charts);
+    alarms += first != nullptr;
+    judged += static_cast<double>(first ? *first->chart.alarm - 9 : 100);
+  }
+  CHECK_CLOSE(judged / alarms, 60, 0.1, 0);
+}
+
 TEST_CASE("several dampers watched: what the sensors cannot tell apart is refused, or said" *
           doctest::test_suite("long")) {
   const auto found = [](const InPlantSetup& setup) {
