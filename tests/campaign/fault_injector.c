@@ -3,9 +3,8 @@
    DASHPOT_FAULT        "allocation" or "write": what fails
    DASHPOT_FAULT_AT     which one fails, counted from 1 and from the start of main(); 0: none
    DASHPOT_FAULT_ON     "1": all after it fail, too, as when memory or disk stay full
-   DASHPOT_FAULT_COUNT  a file that gets the numbers of allocations and of writes that could have
-   failed DASHPOT_FAULT_IN     the name of a program that is started from within, which it happens
-   in
+   DASHPOT_FAULT_COUNT  a file that gets how many allocations and how many writes could have failed
+   DASHPOT_FAULT_IN     the name of a program that is started from within, which it happens in
 
    A write is a call of write, pwrite, ftruncate, fsync, fdatasync, close or rename on anything but
    the standard streams. Other programs that are started from within are left alone. */
