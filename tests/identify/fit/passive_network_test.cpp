@@ -1,5 +1,6 @@
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
 #include "dashpot/identify.h"
+#include "dashpot/identify/fit/passive_network_fit.h"
 #include "identify/small_campaign.h"
 #include "support.h"
 
@@ -34,4 +35,35 @@ TEST_CASE("a passive network is built as the design says") {
   CHECK(message_of([&] {
           identify("passive_network", one, DriveUnit::Ampere, options);
         }).find("1 to 48") != std::string::npos);
+}
+
+TEST_CASE(
+    "a passive network's efforts are tried on motions, ends of the drive, or what comes later") {
+  const auto trials_of = [](const Dataset& data) {
+    return passive_trials(data.records, drive_range(data.records, DriveUnit::Ampere));
+  };
+  const PassiveTrials strange =
+      trials_of(small_campaign({{0.01, 1}, {0.005, 3}}, {.drive_levels = {0, 0.5, 1}}));
+  CHECK_FALSE(strange.later);
+  REQUIRE(strange.folds.size() == 4);  // two motions, two ends, each pair a half
+  CHECK(strange.folds[0].fold.left_out.size() == 3);
+  CHECK(strange.folds[3].fold.left_out.front().drive_level == 1);
+  CHECK(strange.folds[3].weight == 0.5);
+
+  // One motion at two levels: the ends of its records.
+  const Dataset same = small_campaign({{0.01, 1}});
+  const PassiveTrials later = trials_of(same);
+  CHECK(later.later);
+  REQUIRE(later.folds.size() == 1);
+  const Record& before = later.folds[0].fold.training.front();
+  const Record& after = later.folds[0].fold.left_out.front();
+  CHECK(before.size() < same.records.front().size());
+  CHECK(after.warm_up == before.size());
+}
+
+TEST_CASE("a passive network learns as long as asked where more of the same is to come") {
+  const std::vector<Record> same = small_campaign({{0.01, 1}}).records;
+  IdentifyOptions options;
+  options.network = {.epochs = 7, .members = 1};
+  CHECK(identify("passive_network", same, DriveUnit::Ampere, options).iterations == 7);
 }

@@ -72,7 +72,7 @@ std::size_t window_samples(double step) {
 /// What these trials choose from; a design's own number of updates is held to.
 std::vector<PassiveEffort> efforts_for(const PassiveTrials& trials, const NetworkDesign& design) {
   std::span<const PassiveEffort> known = kForOtherMotions;
-  if (trials.of_ends) known = kForMoreOfTheSame;
+  if (trials.later) known = kForMoreOfTheSame;
   std::vector<PassiveEffort> efforts;
   for (PassiveEffort effort : known) {
     if (design.epochs && effort.updates != kUsual.updates) continue;
@@ -281,8 +281,8 @@ PassiveTrials passive_trials(const std::vector<Record>& training, const DriveRan
   };
   add(motions_in_turn(training));
   add(end_levels_in_turn(training, drive));
-  trials.of_ends = trials.folds.empty();
-  if (trials.of_ends) add(trial_folds(training));
+  trials.later = trials.folds.empty();
+  if (trials.later) add(trial_folds(training));
   return trials;
 }
 

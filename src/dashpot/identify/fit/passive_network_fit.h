@@ -19,7 +19,7 @@ struct PassiveTrial {
 };
 struct PassiveTrials {
   std::vector<PassiveTrial> folds;
-  bool of_ends = false;  ///< of what comes later in the same records
+  bool later = false;  ///< of what comes later in the same records
 };
 /// Motions held back in turn, dealt to four groups, and the least level of the drive and the
 /// greatest, where two others are left to extrapolate from; both count alike. Of records that have

@@ -82,3 +82,13 @@ TEST_CASE("training lowers the error, and repeats to the bit") {
   CHECK(passive_cost(network, records, options).cost < 0.5 * before);
   CHECK(network.numbers == again.numbers);
 }
+
+TEST_CASE("the follower of an inertia stays within what a step can tell") {
+  // Quicker from the start, it is a difference of two samples.
+  const std::vector<FreeRunRecord> made = noisy_records();
+  PassiveNetwork network = example_passive_network(6, 0);
+  double& rate = network.numbers[PassiveLayout(network.sizes).inertia_rate];
+  rate = 40 / network.model_step;
+  train(network, pointers_to(made), {.updates = 1, .window = 128, .run_in = 32});
+  CHECK(rate <= 2.000001 / network.model_step);
+}
