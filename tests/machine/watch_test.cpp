@@ -385,6 +385,14 @@ TEST_CASE("several dampers watched: what the sensors cannot tell apart is refuse
   CHECK(format_json(found_of(watched_again(told.dampers, setup, kept, {.wears = {"force"}}))) ==
         format_json(kept));
 
+  // A state that names an amount that is none is refused.
+  WatchedPlant wrong = told;
+  wrong.outlook[1].like = 2;
+  CHECK(contains(message_of([&] {
+                   watched_again(told.dampers, setup, found_of(wrong), {.wears = {"force"}});
+                 }),
+                 "is of no amount"));
+
   // Where one is known ten times as well alone, a warning names both.
   WatchedPlant doubtful = told;
   doubtful.outlook[1].deviation = 10 * doubtful.outlook[1].alone;

@@ -130,6 +130,8 @@ std::vector<std::string> hardly_apart(const WatchedPlant& watched) {
 
 void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
   require_no_follower(setup, "'watch'");
+
+  // What is followed must not say one thing twice, and the plant must be known but for its numbers.
   const auto follows = [&](const char* name) {
     return std::ranges::find(options.wears, name) != options.wears.end();
   };
@@ -139,6 +141,8 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
     if (sensor.finds_delay)
       throw Error("plant, " + sensor.channel, "its delay is unknown",
                   "its value: 'dashpot identify --in' writes it into plants/");
+
+  // Enough days to learn from, with what explains a day.
   const std::size_t known = 1 + options.known.size() +
                             (options.level.empty() ? 0 : setup.unknown.size()),
                     fewest = fewest_reference_days(known);
@@ -284,6 +288,8 @@ WatchedPlant watched_again(ObservedDampers dampers, InPlantSetup setup, const Va
                            const WatchOptions& options) {
   WatchedPlant watched = as_stated(std::move(dampers), std::move(setup), options);
   ObjectReader reader(found, "what was found of a watched plant");
+
+  // The plant's unknown numbers and the noise.
   const Value& plant = reader.required("plant");
   for (PlantUnknown& unknown : watched.setup.unknown) {
     const Value* about = plant.find(unknown.name);
@@ -300,16 +306,20 @@ WatchedPlant watched_again(ObservedDampers dampers, InPlantSetup setup, const Va
   watched.noise.roughness = reader.number("roughness");
   watched.steps = static_cast<int>(reader.number("steps"));
   watched.sample_time = reader.number("sample_time", 0);
+
+  // Of several dampers, how well the first days tell each amount.
   const std::size_t amounts =
       watched.dampers.size() > 1 ? watched.dampers.size() * watched.wears.size() : 0;
   if (amounts > 0) {
     for (const Value& one : reader.required("outlook").items()) {
       ObjectReader own(one, "what a day tells of an amount");
+      const double like = own.number("like");
+      if (!(like >= 0) || like >= static_cast<double>(amounts))
+        throw Error(one.where(), "is of no amount");
       watched.outlook.push_back({.deviation = own.number("deviation"),
                                  .alone = own.number("alone"),
-                                 .like = static_cast<std::size_t>(own.number("like"))});
+                                 .like = static_cast<std::size_t>(like)});
       own.finish();
-      if (watched.outlook.back().like >= amounts) throw Error(one.where(), "is of no amount");
     }
     if (watched.outlook.size() != amounts) throw Error(found.where(), "is of other dampers");
   }

@@ -52,6 +52,7 @@ std::string Watched::remark(std::size_t day) const {
 }
 
 Value to_json(const Watched& watched) {
+  // The charts, with an alarm where there is one, and the days.
   Value charts = Value::array(), days = Value::array();
   for (const WatchedQuantity& q : watched.quantities) {
     Value chart =
@@ -66,6 +67,8 @@ Value to_json(const Watched& watched) {
     charts.push_back(std::move(chart));
   }
   for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
+
+  // The plant and its dampers; of several, which alarm came first and what is in doubt.
   Value told = Value::object({{"plant", watched.plant.setup.model->name},
                               {"noise", identified_noise_words(watched.plant.setup)}});
   const WatchedQuantity* alarm = watched.first_alarm();
@@ -81,6 +84,7 @@ Value to_json(const Watched& watched) {
     told.add("hardly_apart", std::move(doubts));
     if (alarm) told.add("first_alarm", alarm->name);
   }
+
   told.add("alarm", alarm != nullptr);
   told.add("days_between_false_alarms", watched.options.chart.days);
   told.add("reference_days", watched.options.chart.reference);
