@@ -8,15 +8,17 @@ Option leave_out_option(std::string& text) {
   return {.names = "--leave-out",
           .target = &text,
           .help =
-              "what is left out to judge a model: condition, current, record, blocks (of time, one "
-              "after the other), fraction (the end of every record), roles or each",
+              "what is left out to judge a model: condition, current, record, groups (of "
+              "conditions or records), blocks (of time, one after the other), fraction (the end of "
+              "every record), roles or each",
           .value = "WHAT",
           .default_text = "as the dataset file says, else as the records allow",
           .details =
               "; name which ones as current=0.5,1,varies (the records whose drive varies), "
-              "blocks=5 or fraction=0.3, or of which conditions as each=gap,pole_length. The "
-              "records allow the first of condition, current and record of which there are "
-              "several, a single record blocks=5"};
+              "groups=6, blocks=5 or fraction=0.3, or of which conditions as "
+              "each=gap,pole_length. The records allow the first of condition, current and record "
+              "of which there are several, groups=6 where these are more than six conditions or "
+              "records, a single record blocks=5"};
 }
 
 std::optional<LeaveOut> stated_leave_out(const std::string& text) {

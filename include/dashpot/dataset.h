@@ -52,6 +52,8 @@ struct LeaveOut {
     Record,     ///< one record after the other
     Fraction,   ///< the end of every record
     Blocks,     ///< one block of the time of every record after the other
+    Groups,     ///< conditions, or records where all have one, dealt to groups: one group after the
+                ///< other
     Roles,      ///< the parts to which the dataset file gives the role "left_out"
     Each        ///< one combination of the conditions named in `values` after the other
   };
@@ -64,10 +66,11 @@ struct LeaveOut {
   std::vector<std::string> values;
   double fraction = 0.3;   ///< Fraction: share of every record's end that is left out, in (0, 1)
   std::size_t blocks = 5;  ///< Blocks: equal parts of every record's time, 2 or more
+  std::size_t groups = 6;  ///< Groups: 2 or more
 };
 
-/// From "current", "current=0.87,1.98", "fraction=0.33", "blocks=5", "each=gap,pole_length". Throws
-/// Error on an unknown way and on values that it does not take.
+/// From "current", "current=0.87,1.98", "fraction=0.33", "blocks=5", "groups=6",
+/// "each=gap,pole_length". Throws Error on an unknown way and on values that it does not take.
 LeaveOut parse_leave_out(const std::string& text);
 /// The text that parse_leave_out reads back as the same.
 std::string format_leave_out(const LeaveOut& leave_out);

@@ -23,7 +23,8 @@ struct Fold {
 inline constexpr std::string_view kWithoutVaryingDrive = "without records of varying drive";
 
 /// The way that the dataset file states; else the strictest one that the records allow: by
-/// condition, current, record, or five blocks of the only one, one after the other.
+/// condition, current, record, or five blocks of the only one, one after the other. More than six
+/// conditions or records are dealt to six groups.
 LeaveOut default_leave_out(const Dataset& dataset);
 
 /// The folds of a dataset, in the order of its records or of the values asked for. Throws Error

@@ -125,6 +125,41 @@ TEST_CASE("by default, the strictest way that the records allow") {
   CHECK(default_leave_out(dataset).by == LeaveOut::By::Record);
 }
 
+TEST_CASE("many conditions, or records of one, are dealt to groups") {
+  Dataset dataset = small_dataset();
+  CHECK(message_of([&] {
+          split(dataset, parse_leave_out("groups"));
+        }).find("it has 2 conditions, fewer than 6 groups") != std::string::npos);
+
+  // Six records of six motions: few enough for a fit without each.
+  for (std::size_t r = 0; r < 6; ++r) dataset.records[r].condition = std::to_string(r);
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Condition);
+
+  // A seventh and eighth motion: the first two groups hold two motions each, and all of their
+  // records.
+  for (const char* motion : {"6", "6", "7"}) {
+    dataset.records.push_back(dataset.records.front());
+    dataset.records.back().condition = motion;
+  }
+  const LeaveOut dealt = default_leave_out(dataset);
+  CHECK(format_leave_out(dealt) == "groups=6");
+  const auto folds = split(dataset, dealt);
+  REQUIRE(folds.size() == 6);
+  CHECK(folds[0].name == "without group 1 of 6");
+  REQUIRE(folds[0].left_out.size() == 3);
+  CHECK(folds[0].left_out[2].condition == "6");
+  CHECK(folds[1].left_out[1].condition == "7");
+  CHECK(folds[5].left_out.size() == 1);
+  for (const Fold& fold : folds)
+    CHECK(fold.training.size() + fold.left_out.size() == dataset.records.size());
+
+  // Asked for, each is left out in turn; of one motion and one level the records are dealt.
+  CHECK(split(dataset, parse_leave_out("condition")).size() == 8);
+  for (Record& record : dataset.records) record.condition = "one", record.drive_level = 1;
+  CHECK(format_leave_out(default_leave_out(dataset)) == "groups=6");
+  CHECK(split(dataset, parse_leave_out("groups=4"))[0].left_out.size() == 3);
+}
+
 TEST_CASE("an impossible split says which ways would work") {
   Dataset dataset = small_dataset();
   for (Record& record : dataset.records) record.condition = "one";

@@ -104,7 +104,7 @@ export function Fits({known, fits, theme, on_changed}) {
         <input type="checkbox" value=${model.name} checked=${chosen.has(model.name)} onChange=${turn(model.name)} /><span>${model.title}</span><small>${cost_text(costs.get(model.name))}</small></label>`)}</fieldset>
       <label class="field">Left out to judge them<select value=${leave_out} onChange=${(event) => set_leave_out(event.target.value)}>
         <option value="">as the recordings allow</option><option value="condition">each motion in turn</option><option value="current">each current in turn</option>
-        <option value="record">each record in turn</option><option value="blocks=5">five blocks of time</option><option value="fraction=0.3">the last 30 % of each record</option></select></label>
+        <option value="record">each record in turn</option><option value="groups=6">six groups of motions</option><option value="blocks=5">five blocks of time</option><option value="fraction=0.3">the last 30 % of each record</option></select></label>
       <label class="field">Name<input value=${name} placeholder=${free_name()} onInput=${(event) => set_name(event.target.value)} /></label>
       <button class="strong" disabled=${chosen.size === 0 || count === 0}>Fit ${chosen.size} ${chosen.size === 1 ? "model" : "models"} to ${count} records</button>
       ${total > 0 && html`<p class="note">About ${cost_text(total)} of CPU time, estimated; within a factor of two.</p>`}

@@ -121,7 +121,7 @@ def identify(
     """What `dashpot identify` does, with the same figures.
 
     recordings: Recordings, or paths. models: names as `dashpot models` lists them, "usual", "all" or "family".
-    leave_out: "condition", "current=0.5", "record", "blocks=5", "fraction=0.3", "each=gap" (None: as the dataset file says,
+    leave_out: "condition", "current=0.5", "record", "groups=6", "blocks=5", "fraction=0.3", "each=gap" (None: as the dataset file says,
     else the strictest that the recordings allow). budget: minutes on two cores, by estimated cost, that the models
     of "usual" (None: 2) and "all" (None: no limit) may take, 0: no limit; `Ranking.untried` is what was not tried.
     keep_inertia: leave the force as recorded where errors left out show an inertia between load cell and damper.

@@ -14,13 +14,11 @@ struct Way {
   LeaveOut::By by;
   std::string_view name;
 };
-constexpr Way kWays[] = {{LeaveOut::By::Condition, "condition"},
-                         {LeaveOut::By::Current, "current"},
-                         {LeaveOut::By::Record, "record"},
-                         {LeaveOut::By::Fraction, "fraction"},
-                         {LeaveOut::By::Blocks, "blocks"},
-                         {LeaveOut::By::Roles, "roles"},
-                         {LeaveOut::By::Each, "each"}};
+constexpr Way kWays[] = {
+    {LeaveOut::By::Condition, "condition"}, {LeaveOut::By::Current, "current"},
+    {LeaveOut::By::Record, "record"},       {LeaveOut::By::Fraction, "fraction"},
+    {LeaveOut::By::Blocks, "blocks"},       {LeaveOut::By::Groups, "groups"},
+    {LeaveOut::By::Roles, "roles"},         {LeaveOut::By::Each, "each"}};
 
 }  // namespace
 
@@ -31,8 +29,8 @@ LeaveOut parse_leave_out(const std::string& text) {
                                 [&](const Way& w) { return w.name == name; });
   if (way == std::end(kWays))
     throw Error("", "cannot leave out by '" + text + "'",
-                "'condition', 'current', 'current=0.5,1', 'record', 'blocks=5', 'fraction=0.3', "
-                "'roles' or 'each=gap,pole_length'");
+                "'condition', 'current', 'current=0.5,1', 'record', 'groups=6', 'blocks=5', "
+                "'fraction=0.3', 'roles' or 'each=gap,pole_length'");
 
   LeaveOut out;
   out.by = way->by;
@@ -43,7 +41,8 @@ LeaveOut parse_leave_out(const std::string& text) {
 
   const std::string rest = text.substr(equals + 1);
 
-  // The value: a number for a fraction and for blocks, a list of names or levels for all others.
+  // The value: a number for a fraction, blocks and groups, a list of names or levels for all
+  // others.
   if (out.by == LeaveOut::By::Fraction) {
     out.fraction = parse_number(rest).value_or(0);
     if (!(out.fraction > 0 && out.fraction < 1))
@@ -51,13 +50,13 @@ LeaveOut parse_leave_out(const std::string& text) {
                   "a number between 0 and 1: 'fraction=0.3'");
     return out;
   }
-  if (out.by == LeaveOut::By::Blocks) {
+  if (out.by == LeaveOut::By::Blocks || out.by == LeaveOut::By::Groups) {
     constexpr double kMost = 1000;
-    const double blocks = parse_number(rest).value_or(0);
-    if (!(blocks >= 2 && blocks <= kMost && blocks == std::floor(blocks)))
-      throw Error("", "'" + rest + "' blocks cannot be left out in turn",
-                  "a whole number from 2 to 1000: 'blocks=5'");
-    out.blocks = static_cast<std::size_t>(blocks);
+    const double parts = parse_number(rest).value_or(0);
+    if (!(parts >= 2 && parts <= kMost && parts == std::floor(parts)))
+      throw Error("", "'" + rest + "' " + name + " cannot be left out in turn",
+                  "a whole number from 2 to 1000: '" + format_leave_out(out) + "'");
+    (out.by == LeaveOut::By::Blocks ? out.blocks : out.groups) = static_cast<std::size_t>(parts);
     return out;
   }
   if (out.by == LeaveOut::By::Roles)
@@ -76,6 +75,7 @@ std::string format_leave_out(const LeaveOut& leave_out) {
   std::string text(way->name);
   if (leave_out.by == LeaveOut::By::Fraction) return text + "=" + format_exact(leave_out.fraction);
   if (leave_out.by == LeaveOut::By::Blocks) return text + "=" + std::to_string(leave_out.blocks);
+  if (leave_out.by == LeaveOut::By::Groups) return text + "=" + std::to_string(leave_out.groups);
   return leave_out.values.empty() ? text : text + "=" + join(leave_out.values, ",");
 }
 

@@ -37,11 +37,19 @@ bool varies_in_some(const Dataset& dataset) {
   return varying > 0 && static_cast<std::size_t>(varying) < dataset.records.size();
 }
 
+/// What is dealt to groups: the conditions, or, where all records have one, the records.
+std::size_t count_to_deal(const Dataset& dataset) {
+  const std::size_t motions = conditions(dataset).size();
+  return motions > 1 ? motions : dataset.records.size();
+}
+
 std::string ways_that_work(const Dataset& dataset) {
   std::vector<std::string> ways;
   if (conditions(dataset).size() > 1) ways.emplace_back("'condition'");
   if (levels(dataset).size() > 2 || varies_in_some(dataset)) ways.emplace_back("'current'");
   if (dataset.records.size() > 1) ways.emplace_back("'record'");
+  if (count_to_deal(dataset) > LeaveOut().groups)
+    ways.push_back("'" + format_leave_out({.by = LeaveOut::By::Groups}) + "'");
   if (const std::size_t blocks = most_blocks(dataset); blocks > 1)
     ways.push_back("'blocks=" + std::to_string(blocks) + "'");
   ways.emplace_back("'fraction=0.3'");
@@ -208,6 +216,33 @@ std::vector<Fold> by_blocks(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
+/// Deals conditions or records in turn, so that neighbours, which are alike, are not left out at
+/// once.
+std::vector<Fold> by_groups(const Dataset& dataset, const LeaveOut& how) {
+  const std::vector<std::string> motions = conditions(dataset);
+  const std::size_t count = count_to_deal(dataset);
+  if (count < how.groups)
+    impossible(dataset, "it has " + std::to_string(count) +
+                            (motions.size() > 1 ? " conditions" : " record(s)") + ", fewer than " +
+                            std::to_string(how.groups) + " groups");
+
+  std::vector<Fold> folds(how.groups);
+  for (std::size_t group = 0; group < how.groups; ++group)
+    folds[group].name =
+        "without group " + std::to_string(group + 1) + " of " + std::to_string(how.groups);
+  for (std::size_t r = 0; r < dataset.records.size(); ++r) {
+    const Record& record = dataset.records[r];
+    const std::size_t place =
+        motions.size() > 1 ? static_cast<std::size_t>(std::ranges::find(motions, record.condition) -
+                                                      motions.begin())
+                           : r;
+    for (std::size_t group = 0; group < how.groups; ++group)
+      (place % how.groups == group ? folds[group].left_out : folds[group].training)
+          .push_back(record);
+  }
+  return folds;
+}
+
 std::vector<Fold> by_roles(const Dataset& dataset) {
   if (!has_roles(dataset)) impossible(dataset, "its dataset file gives no roles");
   Fold fold;
@@ -231,6 +266,11 @@ LeaveOut default_leave_out(const Dataset& dataset) {
   } else {
     out.by = dataset.records.size() > 1 ? LeaveOut::By::Record : LeaveOut::By::Blocks;
   }
+  // A fit for each of many tells hardly more of a model than a few fits, and takes the time in
+  // which better models could be tried.
+  if ((out.by == LeaveOut::By::Condition || out.by == LeaveOut::By::Record) &&
+      count_to_deal(dataset) > out.groups)
+    out.by = LeaveOut::By::Groups;
   return out;
 }
 
@@ -245,6 +285,8 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
       return by_fraction(dataset, leave_out);
     case LeaveOut::By::Blocks:
       return by_blocks(dataset, leave_out);
+    case LeaveOut::By::Groups:
+      return by_groups(dataset, leave_out);
     case LeaveOut::By::Roles:
       return by_roles(dataset);
     case LeaveOut::By::Each:

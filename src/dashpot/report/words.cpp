@@ -85,6 +85,8 @@ std::string protocol_title(const LeaveOut& leave_out) {
       return fmt::format("one of {} blocks of time left out", leave_out.blocks);
     case LeaveOut::By::Each:
       return "each " + join(leave_out.values, " and ") + " left out";
+    case LeaveOut::By::Groups:
+      return fmt::format("one of {} groups left out", leave_out.groups);
     case LeaveOut::By::Roles:
       break;
   }
@@ -125,6 +127,12 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
           "is fitted on what lies before and after a block, runs from the start of the record "
           "through it, and is judged on it; the figures pool all of them.",
           leave_out.blocks);
+    case LeaveOut::By::Groups:
+      return fmt::format(
+                 "The motions, or the records where all have one motion, are dealt to {} groups, "
+                 "and all records of one group are left out.",
+                 leave_out.groups) +
+             in_turn;
     case LeaveOut::By::Roles:
       break;
   }

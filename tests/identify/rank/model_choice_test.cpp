@@ -161,3 +161,14 @@ TEST_CASE("a budget that is none is refused with where it stands") {
   for (const double wrong : {-1.0, kInfinity})
     CHECK(contains(message_of([&] { choose({"usual"}, wrong); }), "--budget"));
 }
+
+TEST_CASE("unasked, a passive network is tried on many motions, too") {
+  // A fit without each of 20 motions would take all of the time that a law leaves.
+  std::vector<SineMotion> motions;
+  for (int k = 0; k < 20; ++k) motions.push_back({0.004 + 0.0005 * k, 0.5 + 0.1 * k});
+  const Dataset dataset = small_campaign(motions);
+  FitWords words;
+  words.models = {"usual"};
+  const ChosenModels chosen = choose_models(words, dataset, default_leave_out(dataset), "--budget");
+  CHECK(std::ranges::find(chosen.names, "passive_network") != chosen.names.end());
+}

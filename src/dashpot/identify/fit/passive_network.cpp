@@ -211,6 +211,9 @@ class PassiveNetworkFit {
     return members;
   }
 
+  /// At the network's step.
+  const Records& records() const { return all_; }
+
  private:
   Member trained(const Records& records, const PassiveEffort& effort, std::uint64_t seed) const {
     PassiveTrainOptions options;
@@ -323,6 +326,15 @@ FitReport report_of(const PassiveNetworkPreset& preset, const PassiveNetworkFit&
   FitReport report = report_of_members(members);
   std::vector<PassiveNetwork> networks;
   for (const PassiveNetworkFit::Member& member : members) networks.push_back(member.network);
+
+  // What one member alone does between the motions, no record has told it.
+  const std::vector<std::size_t> strays = stray_members(networks, fit.records());
+  for (std::size_t k = strays.size(); k-- > 0;)
+    networks.erase(networks.begin() + static_cast<std::ptrdiff_t>(strays[k]));
+  if (!strays.empty())
+    report.warnings.push_back(
+        std::to_string(strays.size()) + " of its " + std::to_string(members.size()) +
+        " networks left out: unlike the others at half and at twice the speed of its motions");
   report.model =
       std::make_shared<PassiveNetworkModel>(std::string(preset.name), std::move(networks));
   return report;

@@ -92,3 +92,27 @@ TEST_CASE("the follower of an inertia stays within what a step can tell") {
   train(network, pointers_to(made), {.updates = 1, .window = 128, .run_in = 32});
   CHECK(rate <= 2.000001 / network.model_step);
 }
+
+TEST_CASE("a network that answers unlike the others to other speeds is a stray") {
+  const std::vector<FreeRunRecord> made = noisy_records();
+  const std::vector<const FreeRunRecord*> records = pointers_to(made);
+  const PassiveNetwork base = example_passive_network(7, 0.2);
+  const auto beside = [&](double departure, std::uint64_t seed) {
+    PassiveNetwork network = base;
+    Random random(seed);
+    for (double& number : network.numbers) number *= std::exp(departure * random.normal());
+    return network;
+  };
+  const PassiveNetwork a = beside(0.02, 1), b = beside(0.02, 2), c = beside(0.02, 3);
+  const PassiveNetwork stray = beside(1, 4);
+
+  CHECK(stray_members({a, b, c}, records).empty());
+  CHECK(stray_members({a, stray, b}, records) == std::vector<std::size_t>{1});
+  CHECK(stray_members({stray, a, b, c}, records) == std::vector<std::size_t>{0});
+  // Of two, nobody can tell which one strays; nor of three that all differ.
+  CHECK(stray_members({a, stray}, records).empty());
+  CHECK(stray_members({beside(1, 5), beside(1, 6), beside(1, 7)}, records).empty());
+
+  // One that differs where it was trained, too, but by little in newtons, stays.
+  CHECK(stray_members({base, base, a}, records).empty());
+}

@@ -1,6 +1,7 @@
 #include "dashpot/damper/kinds/passive_network/train_passive_network.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -243,6 +244,34 @@ std::vector<double> starting_offsets(const std::vector<Samples>& samples, bool f
   return offsets;
 }
 
+/// Forces of a network in free run on a record's motion, made so many times slower, from the first
+/// scored sample on.
+std::vector<double> free_run(const PassiveNetwork& network, const FreeRunRecord& record,
+                             double slower = 1) {
+  const auto input_at = [&](std::size_t k) {
+    DamperInput input = record.inputs[k];
+    input.velocity /= slower;
+    return input;
+  };
+  std::vector<double> state(network.size()), forces;
+  forces.reserve(record.inputs.size() - record.first);
+  network.rest(input_at(0), state);
+  for (std::size_t k = 0; k < record.inputs.size(); ++k) {
+    if (k > 0)
+      network.advance(input_at(k - 1), input_at(k), slower * (record.time[k] - record.time[k - 1]),
+                      state);
+    if (k >= record.first) forces.push_back(network.force(input_at(k), state));
+  }
+  return forces;
+}
+
+/// The root mean square of a difference.
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double squares = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) squares += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(squares / static_cast<double>(a.size()));
+}
+
 }  // namespace
 
 std::vector<FreeRunRecord> at_step(const std::vector<const FreeRunRecord*>& records, double step) {
@@ -378,20 +407,48 @@ FreeRunCost passive_cost(const PassiveNetwork& network,
   return {squares, std::vector<double>(batch.gradient().begin(), batch.gradient().end())};
 }
 
+std::vector<std::size_t> stray_members(const std::vector<PassiveNetwork>& networks,
+                                       const std::vector<const FreeRunRecord*>& records) {
+  constexpr std::array kSlower{2.0, 0.5};
+  constexpr double kTimes = 5, kShare = 0.05;
+  const std::size_t count = networks.size();
+  if (count < 3) return {};
+
+  // Their forces on all motions, each less its mean as records are judged.
+  std::vector<std::vector<double>> forces(count);
+  for (std::size_t k = 0; k < count; ++k)
+    for (const FreeRunRecord* record : records)
+      for (const double slower : kSlower) {
+        const std::vector<double> run = free_run(networks[k], *record, slower);
+        const double mean =
+            std::accumulate(run.begin(), run.end(), 0.0) / static_cast<double>(run.size());
+        for (const double force : run) forces[k].push_back(force - mean);
+      }
+
+  // How far each is from the nearest other, and what is usual among them.
+  std::vector<double> nearest(count, INFINITY);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j)
+      if (i != j) nearest[i] = std::min(nearest[i], distance(forces[i], forces[j]));
+  std::vector<double> sorted = nearest;
+  std::ranges::sort(sorted);
+  const double most = std::max(kTimes * sorted[count / 2], kShare * networks.front().force_scale);
+
+  std::vector<std::size_t> strays;
+  for (std::size_t k = 0; k < count; ++k)
+    if (nearest[k] > most) strays.push_back(k);
+  return strays;
+}
+
 double squares_left(const PassiveNetwork& network, const FreeRunRecord& record, bool offset) {
-  std::vector<double> state(network.size());
+  const std::vector<double> run = free_run(network, record);
   double sum = 0, squares = 0;
-  network.rest(record.inputs.front(), state);
-  for (std::size_t k = 0; k < record.inputs.size(); ++k) {
-    if (k > 0)
-      network.advance(record.inputs[k - 1], record.inputs[k], record.time[k] - record.time[k - 1],
-                      state);
-    if (k < record.first) continue;
-    const double error = network.force(record.inputs[k], state) - record.force[k];
+  for (std::size_t k = 0; k < run.size(); ++k) {
+    const double error = run[k] - record.force[record.first + k];
     sum += error;
     squares += error * error;
   }
-  const auto scored = static_cast<double>(record.inputs.size() - record.first);
+  const auto scored = static_cast<double>(run.size());
   return offset ? squares - sum * sum / scored : squares;
 }
 

@@ -42,6 +42,12 @@ FreeRunCost passive_cost(const PassiveNetwork& network,
                          const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options);
 
+/// Which of these networks (places, ascending) answer unlike all others to the records' motions at
+/// half and at twice their speed: five times as far from the nearest other as is usual among them,
+/// and by a twentieth of their force scale. None of one or two.
+std::vector<std::size_t> stray_members(const std::vector<PassiveNetwork>& networks,
+                                       const std::vector<const FreeRunRecord*>& records);
+
 /// Sum of a record's squared errors over its scored samples, N^2, less their mean when `offset`.
 double squares_left(const PassiveNetwork& network, const FreeRunRecord& record, bool offset);
 
