@@ -1,3 +1,5 @@
+#include "dashpot/damper/kinds/passive_network/presets.h"
+#include "dashpot/damper/kinds/passive_network/train_passive_network.h"
 #include "dashpot/damper/nets/mlp_evaluator.h"
 #include "dashpot/damper/nets/train_batches.h"
 #include "dashpot/error.h"
@@ -138,6 +140,65 @@ double fit(int round) {
   return reached ? cpu_seconds() - start : HUGE_VAL;
 }
 
+/// The network that `dashpot identify` trains, at the start of its training; all scales are 1.
+PassiveNetwork passive_start() {
+  PassiveNetwork network;
+  network.sizes = passive_network_presets().front().sizes;
+  network.inert = true;
+  network.displacement_scale = 1;
+  network.model_step = 0.005;
+  initialise(network, 1);
+  return network;
+}
+
+/// A record that fills a window behind its run-in, so that all windows are alike.
+FreeRunRecord passive_record(const PassiveTrainOptions& options, double step) {
+  FreeRunRecord record;
+  for (std::size_t k = 0; k < options.window - options.run_in; ++k) {
+    const double time = static_cast<double>(k) * step, phase = 20 * time;
+    record.inputs.push_back({std::sin(phase), std::cos(phase), 1 + 0.5 * std::sin(5 * time)});
+    record.time.push_back(time);
+    record.force.push_back(std::tanh(4 * std::cos(phase)) + 0.2 * std::sin(3 * phase));
+  }
+  return record;
+}
+constexpr std::size_t kPassiveUpdates = 20;
+
+/// Seconds of an update: windows forward and back, and the step of all numbers.
+double passive_training(int) {
+  const PassiveTrainOptions options{.updates = kPassiveUpdates};
+  PassiveNetwork network = passive_start();
+  const FreeRunRecord record = passive_record(options, network.model_step);
+  return time_of(1, [&] { train(network, {&record}, options); }) / kPassiveUpdates;
+}
+
+/// What passive_twin.py starts from: sizes; step, middle of the drive, mean square; numbers; a
+/// window's displacement, velocity, drive and force.
+void print_passive() {
+  const PassiveTrainOptions options{.offsets = false};
+  const PassiveNetwork network = passive_start();
+  const FreeRunRecord record = passive_record(options, network.model_step);
+  const double scored = static_cast<double>(options.windows * record.force.size());
+  const PassiveSizes& z = network.sizes;
+  std::printf("%zu %zu %zu %zu %zu\n%.9g %.9g %.9g\n", z.springs, z.memories, z.neurons,
+              z.viscous_neurons, options.run_in, network.model_step,
+              0.5 * (network.drive_low + network.drive_high),
+              passive_cost(network, {&record}, options).cost / scored);
+  for (const double number : network.numbers) std::printf("%.9g ", number);
+  std::printf("\n");
+
+  // Before a record its damper stands still.
+  const auto line = [&](double stands, auto of) {
+    for (std::size_t k = 0; k < options.run_in; ++k) std::printf("%.9g ", stands);
+    for (std::size_t k = 0; k < record.force.size(); ++k) std::printf("%.9g ", of(k));
+    std::printf("\n");
+  };
+  line(record.inputs[0].displacement, [&](std::size_t k) { return record.inputs[k].displacement; });
+  line(0, [&](std::size_t k) { return record.inputs[k].velocity; });
+  line(record.inputs[0].current, [&](std::size_t k) { return record.inputs[k].current; });
+  line(record.force[0], [&](std::size_t k) { return record.force[k]; });
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -148,6 +209,10 @@ int main(int count, char** arguments) {
   }
   if (count > 2 && arguments[1] == std::string("ride")) {
     print_ride(arguments[2] == std::string(kRides[0].task) ? Ride::Network : Ride::BoucWen);
+    return 0;
+  }
+  if (count > 1 && arguments[1] == std::string("passive")) {
+    print_passive();
     return 0;
   }
   if (count > 1 && arguments[1] == std::string("surface")) {
@@ -163,6 +228,7 @@ int main(int count, char** arguments) {
                   {"latency_tanh", [](int) { return latency<float>(kTanh); }},
                   {"batch_relu", [](int) { return batch(kRelu); }},
                   {"batch_tanh", [](int) { return batch(kTanh); }},
+                  {"passive_training", passive_training},
                   {"fit_iteration", fit_iteration},
                   {"fit", fit}});
   if (!narrow) add_own_rides(tasks, true);
