@@ -1,6 +1,6 @@
 """A passive network in PyTorch, eager: the equations, windows and descent of train_passive_network.cpp.
 
-Program("PEER").cost() is that of `PEER passive` to single precision, or nothing is timed.
+PassiveTwin("PEER").is_equal() tells whether its mean square is the one that `PEER passive` prints.
 """
 import subprocess
 
