@@ -165,12 +165,26 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   };
 }
 
+/// Options of a controller's vehicle, and whether they were given.
+std::vector<std::pair<const char*, bool>> vehicle_options_given(const VehicleChoice& vehicle) {
+  return {{"--damper", !vehicle.damper.empty()},
+          {"--plant", vehicle.plant != VehicleChoice{}.plant},
+          {"--set", !vehicle.values.empty()},
+          {"--force-loop", !vehicle.force_loop.empty()},
+          {"--in-car", vehicle.in_car}};
+}
+
 /// Null: what is named is a damper.
 CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& options,
                          Console& console) {
   const VehicleChoice& vehicle = settings.vehicle;
   if (!settings.plant.empty()) {
     require_blocks(settings, settings.plant, "an observer");
+    auto given = vehicle_options_given(vehicle);
+    given.insert(given.end(), {{"--controller", !vehicle.controller.empty()},
+                               {"--inverse", !vehicle.inverse.empty()}});
+    for (const auto& [option, said] : given)
+      if (said) throw UsageError(option, "has no effect on the observer of --in", "leave it out");
     return observer_block(settings, options, console);
   }
   if (!settings.force_errors.empty()) throw UsageError("--force-error", "goes with --in");
@@ -182,11 +196,7 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
   }
 
   // Without one, options of its vehicle would have no effect.
-  for (const auto& [option, said] : {std::pair{"--damper", !vehicle.damper.empty()},
-                                     {"--plant", vehicle.plant != VehicleChoice{}.plant},
-                                     {"--set", !vehicle.values.empty()},
-                                     {"--force-loop", !vehicle.force_loop.empty()},
-                                     {"--in-car", vehicle.in_car}})
+  for (const auto& [option, said] : vehicle_options_given(vehicle))
     if (said) throw UsageError(option, "goes with --controller");
 
   // An inverse network from a file, or the inverse of a damper by a scheme.

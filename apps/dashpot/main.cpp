@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <initializer_list>
 #include <iterator>
+#include <malloc.h>
 #include <new>
 #include <unistd.h>
 
@@ -84,6 +85,13 @@ void catch_signals() {
     write_to_stderr({"error: unexpected\n"});
   }
   std::abort();
+}
+
+/// Memory once had is kept for what comes next: to get a page from the system costs several times
+/// what it costs to fill it, above all on virtual machines.
+void keep_memory() {
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
 /// A file opened later must not become a closed standard stream: the table would end up in the
@@ -234,6 +242,7 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
 
 int main(int argc, char** argv) {
   using namespace dashpot::cli;
+  keep_memory();
   hold_standard_streams();
   catch_signals();
   std::set_terminate(on_terminate);

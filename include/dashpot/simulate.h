@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dashpot/controller.h"
+#include "dashpot/drive.h"
 #include "dashpot/ground_motion.h"
 #include "dashpot/monitor.h"
 #include "dashpot/mounted_damper.h"
@@ -35,7 +36,8 @@ struct Setting {
   const Plant& plant;
   const std::vector<MountedDamper>& dampers;  ///< one per strut
   const GroundMotion& ground;
-  const Controller* controller = nullptr;  ///< null: each damper keeps its current
+  const Controller* controller = nullptr;    ///< null: each damper keeps its current
+  DriveUnit drive_unit = DriveUnit::Ampere;  ///< of the trace's currents and commands
 };
 
 /// The outcome of a simulation, as a record: per coordinate q, q' and q''; per point its height and

@@ -53,7 +53,8 @@ struct Vehicle {
 
   /// This vehicle on a ground, which must outlive the setting.
   Setting on(const GroundMotion& ground) const {
-    return {set.plant, dampers, ground, controller.get()};
+    const bool driven = limits.current_min < limits.current_max;
+    return {set.plant, dampers, ground, controller.get(), driven ? drive_unit : DriveUnit::Ampere};
   }
   /// Options of simulate() for a run of that many seconds, with this vehicle's sensors and limits.
   SimulateOptions options(double duration) const;

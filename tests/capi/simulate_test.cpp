@@ -27,6 +27,28 @@ TEST_CASE("a vehicle by words drives as it does inside the library") {
   CHECK(json.find("diverged_at")->is_null());
 }
 
+TEST_CASE("the trace has the drive in the damper's unit") {
+  for (const auto& [damper, unit] : {std::pair{"spencer1997", "V"}, {"vrths_mr_bingham", "A"}}) {
+    CAPTURE(damper);
+    Recordings trace;
+    const std::string options =
+        R"({"duration": 0.1, "current": 1, "dampers": [")" + std::string(damper) + R"("]})";
+    REQUIRE(dashpot_simulate(options.c_str(), nullptr, &trace, nullptr) == DASHPOT_OK);
+    dashpot_record_info info;
+    REQUIRE(dashpot_recordings_get_info(trace, 0, &info) == DASHPOT_OK);
+    int drives = 0;
+    for (std::size_t c = 0; c < info.channel_count; ++c) {
+      dashpot_channel channel;
+      REQUIRE(dashpot_recordings_channel(trace, 0, c, &channel) == DASHPOT_OK);
+      const std::string name = channel.name;
+      if (!name.ends_with("_current") && !name.ends_with("_command")) continue;
+      ++drives;
+      CHECK(std::string(channel.unit) == unit);
+    }
+    CHECK(drives == 2);
+  }
+}
+
 TEST_CASE("words that nothing is known by are refused") {
   dashpot_recordings* trace = nullptr;
   const auto refusal = [&](const char* options) {

@@ -21,7 +21,11 @@ TEST_CASE("options that serve another one are refused without it" * doctest::tes
       {"export --parameters mr1 --to c --sources-only", "--sources-only: is of the binaries"},
       {"export --parameters mr1 --to c --compiler cc", "--compiler: is of the binaries in an FMU"},
       {"export --parameters mr1 --to c --force-loop integral=1", "--force-loop: goes with --cont"},
-      {"export --parameters mr1 --to c --plant baig", "--plant: goes with --controller"}};
+      {"export --parameters mr1 --to c --plant baig", "--plant: goes with --controller"},
+      {"export --parameters mr1 --to c --in car.yaml --plant baig",
+       "--plant: has no effect on the observer of --in"},
+      {"export --parameters mr1 --to c --in car.yaml --controller sh_add",
+       "--controller: has no effect on the observer of --in"}};
   for (const auto& [arguments, said] : cases) {
     const ProgramResult result = run_dashpot(arguments);
     CAPTURE(arguments);

@@ -20,14 +20,22 @@ struct Run {
   std::size_t count() const { return end - first; }
 };
 
-/// The runs of equal values that hold at least `least` samples.
-std::vector<Run> equal_runs(const Samples& values, std::size_t least) {
-  std::vector<Run> runs;
+/// Visits the runs of equal values, of which most records have one per sample.
+template <typename Visit>
+void visit_equal_runs(const Samples& values, const Visit& visit) {
   for (Run run; run.first < values.size(); run.first = run.end) {
     run.end = run.first + 1;
     while (run.end < values.size() && values[run.end] == values[run.first]) ++run.end;
-    if (run.count() >= least) runs.push_back(run);
+    visit(run);
   }
+}
+
+/// The runs of equal values that hold at least `least` samples.
+std::vector<Run> equal_runs(const Samples& values, std::size_t least) {
+  std::vector<Run> runs;
+  visit_equal_runs(values, [&](const Run& run) {
+    if (run.count() >= least) runs.push_back(run);
+  });
   return runs;
 }
 
@@ -176,16 +184,20 @@ std::optional<std::string> held(const Record& record, const Samples& values,
                                 std::string_view name) {
   constexpr std::size_t kFewest = 10, kRest = 3;
   constexpr double kAlike = 0.8, kAbove = 3;
-  const std::vector<Run> runs = equal_runs(values, 1);
-  if (runs.size() < kFewest) return std::nullopt;
-
-  // How long it stands, and how far it goes then: the medians.
+  // How long it stands each time but the last, and how far it goes then.
   std::vector<std::size_t> lengths;
   Samples steps;
-  for (std::size_t k = 1; k < runs.size(); ++k) {
-    lengths.push_back(runs[k - 1].count());
-    steps.push_back(std::abs(values[runs[k].first] - values[runs[k - 1].first]));
-  }
+  Run before;
+  visit_equal_runs(values, [&](const Run& run) {
+    if (run.first > 0) {
+      lengths.push_back(before.count());
+      steps.push_back(std::abs(values[run.first] - values[before.first]));
+    }
+    before = run;
+  });
+  if (lengths.size() + 1 < kFewest) return std::nullopt;
+
+  // The medians.
   const auto middle = static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::ranges::nth_element(lengths, lengths.begin() + middle);
   std::ranges::nth_element(steps, steps.begin() + middle);

@@ -22,9 +22,9 @@ double share_marked(const Record& trace, const std::vector<Part>& parts, const c
 
 }  // namespace
 
-TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,
-                         std::size_t samples)
-    : plant_(plant), forces_(forces), ground_(ground) {
+TraceWriter::TraceWriter(const Setting& setting, const PlantForces& forces, std::size_t samples)
+    : plant_(setting.plant), forces_(forces), ground_(setting.ground) {
+  const Plant& plant = setting.plant;
   const auto channel = [&](const std::string& name, const std::string& unit) {
     record_.channels.push_back({.name = name, .unit = unit, .origin = "simulated"});
     record_.channels.back().samples.reserve(samples + kRows);
@@ -44,8 +44,8 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
     channel(strut.name + "_deflection", "m");
     channel(strut.name + "_velocity", "m/s");
     channel(strut.name + "_force", "N");
-    channel(strut.name + "_current", "A");
-    channel(strut.name + "_command", "A");
+    channel(strut.name + "_current", unit_of(setting.drive_unit));
+    channel(strut.name + "_command", unit_of(setting.drive_unit));
   }
   for (const Tyre& tyre : plant.tyres) {
     channel(tyre.name + "_road", "m");
@@ -57,7 +57,7 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
   record_.time.reserve(samples + kRows);
   columns_.resize(1 + record_.channels.size());
   record_.name = plant.name;
-  record_.condition = ground.description();
+  record_.condition = setting.ground.description();
   record_.source = "simulation";
 }
 

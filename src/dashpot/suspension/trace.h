@@ -2,9 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/ground_motion.h"
-#include "dashpot/plant.h"
-#include "dashpot/record.h"
+#include "dashpot/simulate.h"
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
@@ -12,8 +10,7 @@ namespace dashpot {
 /// Writes what a plant does, sample by sample, into the channels of a record.
 class TraceWriter {
  public:
-  TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,
-              std::size_t samples);
+  TraceWriter(const Setting& setting, const PlantForces& forces, std::size_t samples);
   /// At the state's instant, road: under the plant's tyres; motions: of its struts.
   void write(const PlantState& state, std::span<const FootMotion> road,
              std::span<const DamperInput> motions);

@@ -37,17 +37,6 @@ std::string name_of(const Vehicle& vehicle) {
   return text;
 }
 
-namespace {
-
-/// simulate() knows of no unit but A; the vehicle's dampers may have another one, or none.
-void name_drive(Record& trace, const Vehicle& vehicle) {
-  if (!(vehicle.limits.current_min < vehicle.limits.current_max)) return;
-  for (Channel& channel : trace.channels)
-    if (channel.unit == "A") channel.unit = unit_of(vehicle.drive_unit);
-}
-
-}  // namespace
-
 SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const GroundMotion& ground,
                          const RunOptions& options) {
   SimulateOptions settings = vehicle->options(options.duration);
@@ -61,7 +50,6 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                    .measures = {},
                    .warnings = {}};
 
-  name_drive(run.trace.record, *vehicle);
   run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
   run.warnings = vehicle->warnings;
   run.warnings.insert(run.warnings.end(), run.trace.warnings.begin(), run.trace.warnings.end());
