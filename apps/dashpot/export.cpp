@@ -152,6 +152,8 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   const InPlantSetup setup =
       with_identified_noise(read_in_plant_setup(settings.plant), file, settings.damper.model);
   if (const std::string words = identified_noise_words(setup); !words.empty()) console.note(words);
+
+  // At the step that is asked for, else that of the model's data.
   ObserveOptions observed;
   observed.force = force_errors(settings.force_errors);
   const double sample_time = options.sample_time > 0 ? options.sample_time
@@ -165,13 +167,12 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   };
 }
 
-/// Options of a controller's vehicle, and whether they were given.
+/// Options of a controller and its vehicle, and whether they were given.
 std::vector<std::pair<const char*, bool>> vehicle_options_given(const VehicleChoice& vehicle) {
-  return {{"--damper", !vehicle.damper.empty()},
-          {"--plant", vehicle.plant != VehicleChoice{}.plant},
-          {"--set", !vehicle.values.empty()},
-          {"--force-loop", !vehicle.force_loop.empty()},
-          {"--in-car", vehicle.in_car}};
+  return {
+      {"--controller", !vehicle.controller.empty()},       {"--damper", !vehicle.damper.empty()},
+      {"--plant", vehicle.plant != VehicleChoice{}.plant}, {"--set", !vehicle.values.empty()},
+      {"--force-loop", !vehicle.force_loop.empty()},       {"--in-car", vehicle.in_car}};
 }
 
 /// Null: what is named is a damper.
@@ -181,8 +182,9 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
   if (!settings.plant.empty()) {
     require_blocks(settings, settings.plant, "an observer");
     auto given = vehicle_options_given(vehicle);
-    given.insert(given.end(), {{"--controller", !vehicle.controller.empty()},
-                               {"--inverse", !vehicle.inverse.empty()}});
+    given.insert(given.end(), {{"--inverse", !vehicle.inverse.empty()},
+                               {"--current-max", vehicle.current_max > 0},
+                               {"--lag-rate", vehicle.lag_rate >= 0}});
     for (const auto& [option, said] : given)
       if (said) throw UsageError(option, "has no effect on the observer of --in", "leave it out");
     return observer_block(settings, options, console);

@@ -53,6 +53,7 @@ struct Vehicle {
 
   /// This vehicle on a ground, which must outlive the setting.
   Setting on(const GroundMotion& ground) const {
+    // What nothing drives has channels of 0 A.
     const bool driven = limits.current_min < limits.current_max;
     return {set.plant, dampers, ground, controller.get(), driven ? drive_unit : DriveUnit::Ampere};
   }

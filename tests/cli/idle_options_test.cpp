@@ -25,7 +25,9 @@ TEST_CASE("options that serve another one are refused without it" * doctest::tes
       {"export --parameters mr1 --to c --in car.yaml --plant baig",
        "--plant: has no effect on the observer of --in"},
       {"export --parameters mr1 --to c --in car.yaml --controller sh_add",
-       "--controller: has no effect on the observer of --in"}};
+       "--controller: has no effect on the observer of --in"},
+      {"export --parameters mr1 --to c --in car.yaml --lag-rate 5",
+       "--lag-rate: has no effect on the observer of --in"}};
   for (const auto& [arguments, said] : cases) {
     const ProgramResult result = run_dashpot(arguments);
     CAPTURE(arguments);

@@ -89,6 +89,8 @@ std::optional<std::string> stuck_force(const Record& record, const Samples& forc
 std::optional<std::string> stuck_displacement(const Record& record, const Samples& displacement) {
   constexpr std::size_t kLeast = 5;
   constexpr double kLeap = 3, kUsual = 0.95;
+
+  // How far it usually goes at most from sample to sample.
   Samples steps;
   for (std::size_t k = 1; k < displacement.size(); ++k)
     steps.push_back(std::abs(displacement[k] - displacement[k - 1]));
@@ -96,6 +98,8 @@ std::optional<std::string> stuck_displacement(const Record& record, const Sample
   const auto usual =
       sorted.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), usual, sorted.end());
+
+  // A leap behind a stop is far above that.
   for (const Run& run : equal_runs(displacement, kLeast))
     if (run.end < displacement.size() && steps[run.end - 1] > kLeap * *usual && *usual > 0)
       return "the displacement stands still " + between(record, run) +
@@ -161,6 +165,8 @@ std::optional<std::string> clipped_force(const Samples& force, const Samples& di
 std::optional<std::string> spikes(const Record& record, const Samples& values, double span,
                                   std::string_view name) {
   constexpr double kHeight = 0.3, kAgree = 0.25, kMostOften = 0.01;
+
+  // High above both neighbours, or far below, which differ little from one another.
   std::size_t count = 0, first = 0;
   for (std::size_t k = 1; k + 1 < values.size(); ++k) {
     const double before = values[k] - values[k - 1], after = values[k] - values[k + 1];
@@ -169,6 +175,8 @@ std::optional<std::string> spikes(const Record& record, const Samples& values, d
     if (std::abs(values[k - 1] - values[k + 1]) > kAgree * height) continue;
     if (count++ == 0) first = k;
   }
+
+  // What is frequent is noise.
   if (count == 0 || static_cast<double>(count) > kMostOften * static_cast<double>(values.size()))
     return std::nullopt;
   return "the " + std::string(name) + " has " +
@@ -184,6 +192,7 @@ std::optional<std::string> held(const Record& record, const Samples& values,
                                 std::string_view name) {
   constexpr std::size_t kFewest = 10, kRest = 3;
   constexpr double kAlike = 0.8, kAbove = 3;
+
   // How long it stands each time but the last, and how far it goes then.
   std::vector<std::size_t> lengths;
   Samples steps;
@@ -247,6 +256,8 @@ std::optional<std::string> implausible(const Record& record) {
   constexpr std::array kLimits{Limit{"displacement", 10, "m"}, Limit{"velocity", 100, "m/s"},
                                Limit{"force", 1e8, "N"}, Limit{"current", 1e3, "A"},
                                Limit{"voltage", 1e5, "V"}};
+
+  // The first channel whose farthest value is beyond its limit.
   for (const auto& [name, most, unit] : kLimits) {
     const Channel* channel = record.find(name);
     if (!channel) continue;
