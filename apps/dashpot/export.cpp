@@ -167,12 +167,27 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   };
 }
 
-/// Options of a controller and its vehicle, and whether they were given.
-std::vector<std::pair<const char*, bool>> vehicle_options_given(const VehicleChoice& vehicle) {
+/// Options, and whether they were given.
+using GivenOptions = std::vector<std::pair<const char*, bool>>;
+
+/// Of a controller and its vehicle.
+GivenOptions vehicle_options_given(const VehicleChoice& vehicle) {
   return {
       {"--controller", !vehicle.controller.empty()},       {"--damper", !vehicle.damper.empty()},
       {"--plant", vehicle.plant != VehicleChoice{}.plant}, {"--set", !vehicle.values.empty()},
       {"--force-loop", !vehicle.force_loop.empty()},       {"--in-car", vehicle.in_car}};
+}
+
+/// Of an inverse and the coil whose limits it keeps.
+GivenOptions inverse_options_given(const VehicleChoice& vehicle) {
+  return {{"--inverse", !vehicle.inverse.empty()},
+          {"--current-max", vehicle.current_max > 0},
+          {"--lag-rate", vehicle.lag_rate >= 0}};
+}
+
+void refuse(const GivenOptions& options, const std::string& why, const std::string& right) {
+  for (const auto& [option, is_given] : options)
+    if (is_given) throw UsageError(option, why, right);
 }
 
 /// Null: what is named is a damper.
@@ -181,12 +196,9 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
   const VehicleChoice& vehicle = settings.vehicle;
   if (!settings.plant.empty()) {
     require_blocks(settings, settings.plant, "an observer");
-    auto given = vehicle_options_given(vehicle);
-    given.insert(given.end(), {{"--inverse", !vehicle.inverse.empty()},
-                               {"--current-max", vehicle.current_max > 0},
-                               {"--lag-rate", vehicle.lag_rate >= 0}});
-    for (const auto& [option, said] : given)
-      if (said) throw UsageError(option, "has no effect on the observer of --in", "leave it out");
+    for (const GivenOptions& given :
+         {vehicle_options_given(vehicle), inverse_options_given(vehicle)})
+      refuse(given, "has no effect on the observer of --in", "leave it out");
     return observer_block(settings, options, console);
   }
   if (!settings.force_errors.empty()) throw UsageError("--force-error", "goes with --in");
@@ -198,18 +210,22 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
   }
 
   // Without one, options of its vehicle would have no effect.
-  for (const auto& [option, said] : vehicle_options_given(vehicle))
-    if (said) throw UsageError(option, "goes with --controller");
+  refuse(vehicle_options_given(vehicle), "goes with --controller", "");
 
   // An inverse network from a file, or the inverse of a damper by a scheme.
   if (is_inverse(settings.damper.model)) {
     require_blocks(settings, settings.damper.model, "an inverse");
+    refuse(inverse_options_given(vehicle), "has no effect on an inverse from a file",
+           "leave it out; the file holds its limits");
     return [file = load_inverse(settings.damper.model)](const ExportOptions& own) {
       return c_inverse_block(file, own);
     };
   }
 
-  if (vehicle.inverse.empty()) return nullptr;
+  if (vehicle.inverse.empty()) {
+    refuse(inverse_options_given(vehicle), "goes with --controller or --inverse", "");
+    return nullptr;
+  }
   require_blocks(settings, vehicle.inverse, "an inverse");
   return scheme_block(vehicle, settings.damper, options, console);
 }

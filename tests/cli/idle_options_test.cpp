@@ -27,7 +27,11 @@ TEST_CASE("options that serve another one are refused without it" * doctest::tes
       {"export --parameters mr1 --to c --in car.yaml --controller sh_add",
        "--controller: has no effect on the observer of --in"},
       {"export --parameters mr1 --to c --in car.yaml --lag-rate 5",
-       "--lag-rate: has no effect on the observer of --in"}};
+       "--lag-rate: has no effect on the observer of --in"},
+      {"export --parameters mr1 --to c --lag-rate 5",
+       "--lag-rate: goes with --controller or --inv"},
+      {"export --parameters mr1 --to c --current-max 2",
+       "--current-max: goes with --controller or --inverse"}};
   for (const auto& [arguments, said] : cases) {
     const ProgramResult result = run_dashpot(arguments);
     CAPTURE(arguments);
