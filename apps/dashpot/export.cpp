@@ -306,6 +306,17 @@ void require_tables(const ExportSettings& settings) {
     throw UsageError("--units", "are of tables", "with --to tables");
 }
 
+/// A precision is chosen of C and ONNX alone.
+void require_precise_formats(const ExportSettings& settings) {
+  constexpr std::array kFixed{"fmu2", "fmu3", "tables", "carsim", "dpr"};
+  if (!settings.precision.empty() &&
+      std::ranges::all_of(settings.formats, [&](const std::string& format) {
+        return std::ranges::find(kFixed, format) != kFixed.end();
+      }))
+    throw UsageError("--precision", "has no effect on " + join(settings.formats, ", "),
+                     "leave it out, or add --to c or onnx");
+}
+
 std::vector<std::string> platform_names() {
   std::vector<std::string> names;
   for (const FmuPlatform& platform : fmu_platforms()) names.emplace_back(platform.name);
@@ -320,6 +331,9 @@ void require_fmus(const ExportSettings& settings) {
                                         {"--compiler", !settings.compiler.empty()}})
     if (is_said && !has_fmu)
       throw UsageError(option, "is of the binaries in an FMU", "with --to fmu2 or fmu3");
+  if (settings.sources_only && !settings.compiler.empty())
+    throw UsageError("--compiler", "is of binaries, and --sources-only wants none",
+                     "leave one of them out");
   if (settings.platforms.empty()) return;
   if (settings.sources_only)
     throw UsageError("--platforms", "are of binaries, and --sources-only wants none",
@@ -350,8 +364,8 @@ int run_export(const ExportSettings& settings, Console& console) {
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
   require_tunable_formats(settings);
   require_fmus(settings);
-
   require_tables(settings);
+  require_precise_formats(settings);
 
   // The words of the command line as the exporters take them.
   const ExportOptions options{

@@ -41,6 +41,27 @@ std::string text_attribute(hid_t object, const char* name) {
   return std::string(trim(text));
 }
 
+/// An attribute of one number; `missing` where there is none.
+double number_attribute(hid_t object, const char* name, double missing) {
+  if (H5Aexists(object, name) <= 0) return missing;
+  const Hdf5Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
+  const H5T_class_t kind = type < 0 ? H5T_NO_CLASS : H5Tget_class(type);
+  double value = missing;
+  if ((kind != H5T_INTEGER && kind != H5T_FLOAT) || H5Sget_simple_extent_npoints(space) != 1 ||
+      H5Aread(attribute, H5T_NATIVE_DOUBLE, &value) < 0)
+    return missing;
+  return value;
+}
+
+/// What the conventions of netCDF keep in fewer bits, as it was measured.
+void unpack(hid_t dataset, std::vector<double>& values) {
+  const double scale = number_attribute(dataset, "scale_factor", 1),
+               offset = number_attribute(dataset, "add_offset", 0);
+  if (scale == 1 && offset == 0) return;
+  for (double& value : values) value = scale * value + offset;
+}
+
 /// Hands over a dataset of numbers; the reason when it is none.
 std::string hand_over_dataset(hid_t dataset, StoredArray& about, StoredWriter& to) {
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
@@ -59,8 +80,9 @@ std::string hand_over_dataset(hid_t dataset, StoredArray& about, StoredWriter& t
   std::vector<double> values(about.height * about.width);
   if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     return "HDF5 cannot read it: a filter that is not there, or damage";
-  for (const char* name : {"unit", "units", "Unit", "Units"})
+  for (const char* name : {"unit", "units", "Unit", "Units", "UNIT", "UNITS"})
     if (about.unit.empty()) about.unit = text_attribute(dataset, name);
+  unpack(dataset, values);
 
   // Its numbers stand row by row; a matrix that lies on its side is turned.
   to.begin_array(about);

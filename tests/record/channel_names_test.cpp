@@ -36,6 +36,17 @@ TEST_CASE("columns are recognised by their names") {
       {"A [g0]", "", "acceleration", "g0"},
       {"acc (g)", "", "acceleration", "g0"},
       {"acceleration", "g", "acceleration", "g0"},
+      // As MATLAB, R and word processors write "Force (kN)", and as people do.
+      {"Force_kN_", "", "force", "kN"},
+      {"Velocity_mm_s_", "", "velocity", "mm/s"},
+      {"force..kN.", "", "force", "kN"},
+      {"Displacement mm.", "", "displacement", "mm"},
+      {"Displacement\xC2\xA0[mm]", "", "displacement", "mm"},
+      {"Force\xC2\xB9 [kN]", "", "force", "kN"},
+      {"Force_kN_filt", "", "force", "kN"},
+      {"kN force", "", "force", "kN"},
+      {"Force|kN", "", "force", "kN"},
+      {"mm cm displacement", "", "displacement", ""},
   };
   for (const Known& k : known) {
     CAPTURE(std::string(k.column));
@@ -58,4 +69,12 @@ TEST_CASE("what may mean two things, or is no measurement, is not used") {
 TEST_CASE("two units for one channel") {
   CHECK(recognise_channel("x [mm]", "m").problem == "two units: 'mm' in its name and 'm' below it");
   CHECK(recognise_channel("x [mm]", "mm").problem.empty());
+}
+
+TEST_CASE("units that nobody knows are not taken as SI") {
+  for (const char* column : {"Force_pounds", "Force in pounds", "Force KiloNewton", "velocity_mmps",
+                             "Displacement microns", "displacement [\"]"}) {
+    CAPTURE(std::string(column));
+    CHECK(recognise_channel(column, "").problem.starts_with("the unknown unit '"));
+  }
 }

@@ -110,6 +110,17 @@ TEST_CASE("a last number that was cut and values of no damper are told") {
   CHECK(contains(only_doubt(unit), "is none of a damper: the unit or the column may be wrong"));
 }
 
+TEST_CASE("a velocity of another size than the displacement's is told with its ratio") {
+  Record record = sound_record();
+  Channel velocity{"velocity", "m/s"};
+  for (const double t : record.time)
+    velocity.samples.push_back(0.04 * std::numbers::pi * std::cos(2 * std::numbers::pi * t));
+  record.channels.push_back(velocity);
+  CHECK(doubts_about(record).empty());
+  for (double& value : samples(record, "velocity")) value *= 25.4;
+  CHECK(contains(only_doubt(record), "the velocity is 25."));
+}
+
 TEST_CASE("a channel that was sampled more slowly and held is told with its rate") {
   Record record = sound_record();
   std::vector<double>& x = samples(record, "displacement");

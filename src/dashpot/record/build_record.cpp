@@ -86,6 +86,16 @@ std::string_view last_part(std::string_view name) {
   return name.substr(name.rfind('.') + 1);  // npos + 1 is 0
 }
 
+/// Throws Error at a step without a unit that is no second of any test: a logger's ms, most likely.
+void require_plausible_step(double step, const std::string& what, const std::string& file,
+                            const std::string& right) {
+  constexpr double kLongest = 0.5;  // s
+  if (step < kLongest) return;
+  throw Error(
+      file, what + " of " + format_number(step, 3) + ", which are no seconds in a test of a damper",
+      right);
+}
+
 /// Sample time in s from a single number beside the columns whose name says that it is a sample
 /// time or a rate; `basis` says which.
 std::optional<double> sample_time_of_scalars(const RawTable& table, std::string& basis) {
@@ -95,24 +105,24 @@ std::optional<double> sample_time_of_scalars(const RawTable& table, std::string&
     const bool rate = word == "fs" || word == "sample_rate" || word == "samplerate";
     if ((!step && !rate) || !(value > 0) || !std::isfinite(value)) continue;
     basis = (step ? "row times " : "row divided by ") + name;
-    return step ? value : 1 / value;
+    const double seconds = step ? value : 1 / value;
+    require_plausible_step(seconds, name + " has no unit and means steps", table.file,
+                           "state the rate in a dataset file: 'time: {sample_rate: 1000}'");
+    return seconds;
   }
   return std::nullopt;
 }
 
-/// A time without a unit whose steps are no seconds of any test: a logger's ms, most likely.
-void require_plausible_step(const std::vector<double>& stamps, const RawTable& table,
-                            const ColumnUse& use) {
-  constexpr double kLongest = 0.5;  // s
+/// The same of a time column whose unit is assumed.
+void require_plausible_stamps(const std::vector<double>& stamps, const RawTable& table,
+                              const ColumnUse& use) {
   if (use.basis.find("assumed SI") == std::string::npos || stamps.size() < 2) return;
-  const double step = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
-  if (step < kLongest) return;
   const std::string name = label(table.columns[use.column], use.column);
-  throw Error(table.file,
-              "time (" + name + ") has no unit and steps of " + format_number(step, 3) +
-                  ", which are no seconds in a test of a damper",
-              "name it " + name + "_ms, or state its unit in a dataset file: 'time: {column: " +
-                  yaml_string(name) + ", unit: ms}'");
+  require_plausible_step((stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1),
+                         "time (" + name + ") has no unit and steps", table.file,
+                         "name it " + name +
+                             "_ms, or state its unit in a dataset file: 'time: {column: " +
+                             yaml_string(name) + ", unit: ms}'");
 }
 
 /// Takes the time column or makes the time stamps. Returns in words how time was understood. A
@@ -127,7 +137,7 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
   if (const ColumnUse* use = find_use(uses, "time"); use && !step) {
     record.time = std::move(table.columns[use->column].values);
     require_increasing(record.time, table);
-    require_plausible_step(record.time, table, *use);
+    require_plausible_stamps(record.time, table, *use);
     record.sample_time = uniform_step(record.time) * use->factor;
     for (double& stamp : record.time) stamp = use->factor * (stamp - use->raw_offset);
     if (!(record.sample_time > 0)) return "not uniform: kept as it is";

@@ -1,6 +1,7 @@
 #include "dashpot/record/channel_names.h"
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "dashpot/base/text.h"
@@ -56,12 +57,11 @@ std::string fold_accents(std::string_view text) {
   std::string out;
   for (std::size_t k = 0; k < text.size(); ++k) {
     auto byte = static_cast<unsigned char>(text[k]);
-    if (byte == 0xC3 && k + 1 < text.size()) byte = static_cast<unsigned char>(text[++k]) | 0xC0;
-    if (byte >= 0xC0) {
-      out += kPlain[byte & 0x1f];
-    } else if (byte != 0xC2) {
-      out += static_cast<char>(byte);
-    }
+    const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0);
+    const bool in_utf8 = (next & 0xC0) == 0x80;
+    if (byte == 0xC2 && in_utf8) continue;  // before a sign as "²"
+    if (byte == 0xC3 && in_utf8) byte = next | 0xC0, ++k;
+    out += byte >= 0xC0 ? kPlain[byte & 0x1f] : static_cast<char>(byte);
   }
   return out;
 }
@@ -179,8 +179,10 @@ constexpr std::string_view kRemarks =
 
 bool is_remark(std::string_view text) {
   const std::vector<std::string> words = words_of(text);
-  return std::all_of(words.begin(), words.end(),
-                     [](const std::string& w) { return contains_word(kRemarks, w); });
+  const bool is_inch_mark = words.empty() && text.find('"') != std::string_view::npos;
+  return !is_inch_mark && std::all_of(words.begin(), words.end(), [](const std::string& w) {
+    return contains_word(kRemarks, w);
+  });
 }
 
 /// The units that people write for a channel, the commonest first.
@@ -219,7 +221,9 @@ bool meant_as_unit(std::string_view text, std::string_view channel) {
   constexpr std::string_view kForeign =
       "tonf tf ton kip kips pdl dyn ozf ips fps mph kmh kph knots mil mils thou pt cts counts "
       "count "
-      "bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r";
+      "bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r pound "
+      "pounds kilogram kilograms newton newtons kilonewton kilonewtons micron microns mms cms mps "
+      "mmps cmps inps";
   const std::vector<std::string> usual = split(std::string(usual_units(channel)), ' ');
   return contains_word(kForeign, lower(text)) ||
          std::any_of(usual.begin(), usual.end(),
@@ -258,6 +262,42 @@ NamedChannel with_unknown_unit(std::string_view column) {
   return {};
 }
 
+/// A usual unit of the channel that stands as a word anywhere in a name: "kN force",
+/// "Force_kN_filt"; "" where there is none, or more than one. A letter alone, or "in", may mean
+/// anything.
+std::string unit_among_words(std::string_view name, std::string_view channel) {
+  const std::string usual(usual_units(channel));
+  std::string spaced, found;
+  for (const char c : name) spaced += std::isalpha(static_cast<unsigned char>(c)) ? c : ' ';
+  for (const std::string& word : split(spaced, ' ')) {
+    if (word.size() < 2 || word == "in" || word == found || !contains_word(usual, word)) continue;
+    if (!found.empty()) return {};
+    found = word;
+  }
+  return found;
+}
+
+/// A name as people type it: other programs have no-break blanks in it, or marks in the place of
+/// brackets and blanks ("Force_kN_" and "force..kN." for "Force (kN)").
+std::string as_typed(std::string_view column) {
+  constexpr std::string_view kNoBreak = "\xC2\xA0", kMarks = "_. ";
+  std::string name(column);
+  for (std::size_t at; (at = name.find(kNoBreak)) != std::string::npos;)
+    name.replace(at, kNoBreak.size(), " ");
+  name = trim(name);
+  if (name.find_first_of("[({/") != std::string::npos) return name;
+  if (!name.empty() && kMarks.find(name.back()) != std::string_view::npos) {
+    const std::size_t last = name.find_last_not_of(kMarks);
+    if (last != std::string::npos) name.erase(last + 1);
+  }
+
+  // Points between words as one underscore.
+  std::string typed;
+  for (const char c : name)
+    if (c != '.' || typed.empty() || typed.back() != '_') typed += c == '.' ? '_' : c;
+  return typed;
+}
+
 /// "x(2)": one column of a matrix in a MAT file.
 bool is_matrix_column(std::string_view name) {
   const std::size_t open = name.rfind('(');
@@ -276,7 +316,7 @@ std::string_view si_unit(std::string_view channel) {
 }
 
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit) {
-  const std::string whole(trim(column)), row(row_unit);
+  const std::string whole = as_typed(column), row(row_unit);
   if (is_matrix_column(whole))
     return {{}, {}, "a column of a matrix has no name of its own", false};
 
@@ -304,7 +344,9 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
 
   // A name that holds a unit which nobody knows is not taken as SI.
   const NamedChannel unknown = with_unknown_unit(whole);
-  return unknown.channel.empty() ? found : unknown;
+  if (!unknown.channel.empty()) return unknown;
+  if (found.unit.empty()) found.unit = unit_among_words(whole, found.channel);
+  return found;
 }
 
 }  // namespace dashpot

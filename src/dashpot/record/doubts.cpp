@@ -272,6 +272,29 @@ std::optional<std::string> implausible(const Record& record) {
   return std::nullopt;
 }
 
+/// A measured velocity that is the displacement's in all but its size.
+std::optional<std::string> wrong_scale(const Record& record, const Samples& displacement) {
+  constexpr double kAlike = 0.9, kMost = 3;
+  const Channel* const velocity = record.find("velocity");
+  if (!velocity || velocity->origin.starts_with("derived")) return std::nullopt;
+
+  // Its correlation with the slope of the displacement, and their ratio.
+  double measured = 0, derived = 0, both = 0;
+  for (std::size_t k = 1; k + 1 < displacement.size(); ++k) {
+    const double slope =
+        (displacement[k + 1] - displacement[k - 1]) / (record.time[k + 1] - record.time[k - 1]);
+    measured += velocity->samples[k] * velocity->samples[k];
+    derived += slope * slope;
+    both += velocity->samples[k] * slope;
+  }
+  if (!(measured > 0 && derived > 0) || std::abs(both) < kAlike * std::sqrt(measured * derived))
+    return std::nullopt;
+  const double ratio = std::sqrt(measured / derived);
+  if (ratio < kMost && ratio > 1 / kMost) return std::nullopt;
+  return "the velocity is " + format_number(ratio, 3) +
+         " times that of the displacement: the unit of one of them is wrong";
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about(const Record& record) {
@@ -299,6 +322,7 @@ std::vector<std::string> doubts_about(const Record& record) {
   if (!displacement) return doubts;
   add(stuck_displacement(record, displacement->samples));
   add(dead_displacement(record, displacement->samples));
+  add(wrong_scale(record, displacement->samples));
   const auto [low, high] = std::ranges::minmax(displacement->samples);
   if (!force || high <= low) return doubts;
   // A clipped force stands still, too.

@@ -69,6 +69,40 @@ TEST_CASE("a row of units below the names") {
   CHECK(table.columns[1].name == "disp");
 }
 
+TEST_CASE("a column without a name, which counts the rows, moves no other") {
+  const std::string rows = "0\t0.0\t1.5\n1\t0.1\t2.5\n2\t0.2\t3.5\n";
+  for (const std::string head : {"\tt\tx\n", "t\tx\n"}) {
+    const RawTable table = read_text(head + rows);
+    CHECK(names(table) == std::vector<std::string>{"", "t", "x"});
+    CHECK(table.columns[2].values == std::vector<double>{1.5, 2.5, 3.5});
+  }
+
+  // A first unit that is empty moves none either.
+  const RawTable table = read_text("n\tt\tx\n\ts\tmm\n" + rows);
+  CHECK(table.columns[1].unit == "s");
+  CHECK(table.columns[2].unit == "mm");
+}
+
+TEST_CASE("whole numbers in groups of three are no decimals") {
+  const RawTable table = read_text("t\tF\n0\t987\n1\t1,124\n2\t-1,093\n");
+  CHECK(table.columns[1].values == std::vector<double>{987, 1124, -1093});
+  CHECK(table.notes.front().starts_with("numbers are read with ',' between thousands"));
+  CHECK(read_text("t;F\n0;987\n1;1.124\n2;-1.093\n").columns[1].values[1] == 1124);
+
+  // One number that is no group tells that they are decimals.
+  CHECK(read_text("t\tF\n0\t987\n1\t1,124\n2\t1,09\n").columns[1].values[1] == 1.124);
+  CHECK(read_text("t;F\n0,005;987\n0,010;1,124\n").columns[1].values[1] == 1.124);
+}
+
+TEST_CASE("an error of a sheet at the start of a row is no comment") {
+  for (const std::string error : {"#N/A", "#DIV/0!", "#NV"}) {
+    const RawTable table = read_text("F,x\n1,2\n" + error + ",3\n4,5\n");
+    REQUIRE(table.columns[0].bad);
+    CHECK(table.columns[0].bad->text == error);
+  }
+  CHECK(read_text("F,x\n1,2\n#NVH, paused\n4,5\n").rows() == 2);
+}
+
 TEST_CASE("cells that are no numbers keep their place") {
   const RawTable table = read_text("t,x,comment\n0,1,start\n1,abc,go\n2,,go\n3,4,end\n");
   REQUIRE(table.columns[1].bad);

@@ -35,6 +35,23 @@ TEST_CASE("HDF5: groups are recordings, datasets columns, attributes units") {
   CHECK(tables[1].notes[0] == "dataset 'at 1A/words' passed over: it holds no plain numbers");
 }
 
+TEST_CASE("HDF5: numbers packed with a scale and an offset are unpacked") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "packed.h5";
+  write_example_hdf5(path, {"a"});
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+              set = H5Dopen2(file, "a/x", H5P_DEFAULT), one = H5Screate(H5S_SCALAR);
+  for (const auto& [name, value] : {std::pair{"scale_factor", 0.5}, {"add_offset", 10.0}}) {
+    const hid_t attribute = H5Acreate2(set, name, H5T_NATIVE_DOUBLE, one, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
+    H5Aclose(attribute);
+  }
+  H5Sclose(one), H5Dclose(set), H5Fclose(file);
+  const std::vector<RawTable> tables = read_tables(path);
+  for (const RawColumn& column : tables.front().columns)
+    if (column.name == "x") CHECK(column.values[3] == 11.5);
+}
+
 TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "run.h5";

@@ -81,6 +81,11 @@ TEST_CASE("XLSX: cells that are missing, errors, formulas and booleans") {
   CHECK(table.where(table.columns[2].bad->row).ends_with(":9"));
 }
 
+TEST_CASE("XLSX: a cell far beside the table that is only formatted is none") {
+  const std::string row = row_of({number_cell("0"), number_cell("1"), number_cell("2")});
+  CHECK(read_rows(kNames + row + "<row r=\"3\"><c r=\"CV3\" s=\"1\"/></row>" + row).rows() == 2);
+}
+
 TEST_CASE("XLSX: dates and times of day count in seconds; a unit in a format is no date") {
   const auto seconds = [](const std::vector<std::string>& days, int style,
                           const std::string& properties) {

@@ -14,8 +14,9 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-std::string_view strip_comment(std::string_view line) {
-  line = trim(line);
+/// A line without the marks of a comment. A tab that separates opens with an empty cell.
+std::string_view strip_comment(std::string_view line, char separator) {
+  if (separator != '\t' || !line.starts_with('\t')) line = trim(line);
   while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == '!'))
     line = trim(line.substr(1));
   return line;
@@ -144,9 +145,10 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
                         std::size_t before, std::size_t columns, Cells& cells) {
   // Only the nearest line that holds something is a header: junk stands further up.
   for (std::size_t k = before; k-- > 0;) {
-    const std::string_view line = strip_comment(lines[k]);
-    if (line.empty()) continue;
+    const std::string_view line = strip_comment(lines[k], dialect.separator);
+    if (trim(line).empty()) continue;
     split_cells(line, dialect.separator, cells);
+    if (cells.size() > columns && cells.front().empty()) cells.erase(cells.begin());
     Cells filled = cells;
     drop_trailing_empty(filled);
     if (filled.empty()) continue;
@@ -155,6 +157,20 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
     return fits && (columns > 1 || cells.size() == 1) ? k : std::string::npos;
   }
   return std::string::npos;
+}
+
+/// Whether the first column counts the lines: 0, 1, 2 ... or 1, 2, 3 ..., three at least.
+bool counts_lines(const std::vector<std::string>& lines, const CsvDialect& dialect) {
+  constexpr std::size_t kFewest = 3;
+  std::vector<double> counts;
+  Cells cells;
+  for (std::size_t k = dialect.first_data_line; k < lines.size() && counts.size() < kFewest; ++k) {
+    if (is_comment(lines[k])) continue;
+    split_cells(lines[k], dialect.separator, cells);
+    counts.push_back(number_of_cell(cells.front(), dialect.decimal, 0).value_or(-1));
+  }
+  return counts.size() == kFewest && (counts[0] == 0 || counts[0] == 1) &&
+         counts[1] == counts[0] + 1 && counts[2] == counts[1] + 1;
 }
 
 /// Fills in names and units from the lines above the data: a line of names, with or without a line
@@ -175,8 +191,52 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
     cells = above;
   }
 
+  // Names that are one too few leave out the first column where that counts the lines.
+  if (cells.size() + 1 == columns && counts_lines(lines, dialect)) {
+    cells.insert(cells.begin(), "");
+    std::ranges::rotate(dialect.units, dialect.units.end() - 1);
+  }
   for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
     dialect.names[k] = std::string(cells[k]);
+}
+
+/// Whether the sign that was taken for the decimal one stands between thousands: no number with it
+/// shows anything but groups ("1,124", never "0,5"), and of a column that has it, some numbers of
+/// three digits are without ("987").
+bool separates_thousands(const std::vector<std::string>& lines, const CsvDialect& dialect) {
+  std::vector<char> is_grouped, is_plain;
+  Cells cells;
+  for (std::size_t line = dialect.first_data_line; line < lines.size(); ++line) {
+    if (is_comment(lines[line])) continue;
+    split_cells(lines[line], dialect.separator, cells);
+    is_grouped.resize(std::max(is_grouped.size(), cells.size()));
+    is_plain.resize(is_grouped.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (!parse_number(cells[k], dialect.decimal)) continue;
+      const std::string_view digits = cells[k].substr(cells[k].find_first_not_of("+-"));
+      if (digits.find(dialect.decimal) == std::string_view::npos) {
+        is_plain[k] |= digits.size() == 3 && digits.front() != '0';
+        continue;
+      }
+      if (digits.front() == '0' ||
+          !without_thousands(digits, other_sign(dialect.decimal), dialect.decimal))
+        return false;
+      is_grouped[k] = true;
+    }
+  }
+  for (std::size_t k = 0; k < is_grouped.size(); ++k)
+    if (is_grouped[k] && is_plain[k]) return true;
+  return false;
+}
+
+/// "#N/A" at the start of a row of a sheet, which is no comment; English and German.
+bool is_sheet_error(std::string_view line) {
+  for (const std::string_view error : {"#N/A", "#DIV/0!", "#VALUE!", "#REF!", "#NAME?", "#NUM!",
+                                       "#NULL!", "#NV", "#WERT!", "#BEZUG!", "#ZAHL!"})
+    if (line.starts_with(error))
+      return line.size() == error.size() ||
+             std::string_view(" \t;,").find(line[error.size()]) != std::string_view::npos;
+  return false;
 }
 
 }  // namespace
@@ -184,6 +244,7 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
 bool is_comment(std::string_view line) {
   if (!line.empty() && line.front() >= '0' && line.front() <= '9') return false;
   line = trim(line);
+  if (line.starts_with('#') && is_sheet_error(line)) return false;
   return line.empty() || line.front() == '#' || line.front() == '%' || line.front() == '!' ||
          line.substr(0, 2) == "//";
 }
@@ -235,6 +296,11 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
   if (best.data_lines == 0)
     throw NoTable(file, "no line holds numbers in columns",
                   "give a table: a line of names, then one line per sample");
+  if (separates_thousands(lines, best.dialect)) {
+    best.dialect.thousands = best.dialect.decimal;
+    best.dialect.decimal = other_sign(best.dialect.decimal);
+  }
+
   // One number with both signs shows that groups are used, so that "1.093" is one too.
   Cells cells;
   for (std::size_t k = best.dialect.first_data_line; k < lines.size(); ++k) {

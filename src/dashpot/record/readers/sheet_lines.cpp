@@ -149,11 +149,6 @@ struct SheetLines::Parser final : XmlPart {
   void begin_cell(const Attributes& attributes) {
     column_ = column_of(attributes["r"]).value_or(next_column_);
     next_column_ = column_ + 1;
-    if (column_ >= kSheetColumns)
-      throw Error(place_ + ":" + std::to_string(row_),
-                  "has a cell in column " + std::to_string(column_ + 1) + "; no more than " +
-                      std::to_string(kSheetColumns) + " columns are read",
-                  "delete what stands beside the table");
     type_ = attributes["t"];
     const double style = parse_number(attributes["s"]).value_or(0);
     style_ = style >= 0 && style < 1e6 ? static_cast<std::size_t>(style) : 0;
@@ -166,6 +161,11 @@ struct SheetLines::Parser final : XmlPart {
     in_cell_ = false;
     const std::string cell = cell_text();
     if (cell.empty() || column_ < written_) return;
+    if (column_ >= kSheetColumns)
+      throw Error(place_ + ":" + std::to_string(row_),
+                  "has a cell in column " + std::to_string(column_ + 1) + "; no more than " +
+                      std::to_string(kSheetColumns) + " columns are read",
+                  "delete what stands beside the table");
     text_.append(column_ - written_, '\t');
     written_ = column_;
     text_ += cell;

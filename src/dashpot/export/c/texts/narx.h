@@ -83,10 +83,22 @@ static inline void narx_push(double value, double* history, int size) {
   history[0] = value;
 }
 
-/* Comes to the next instant of the grid, at this input; once diverged, nothing changes. */
+/* Whether all inputs that are read are numbers. */
+static inline int narx_can_read(const Narx* n, const DamperInput* input) {
+  int k, can = 1;
+  for (k = 0; k < n->input_count; ++k) {
+    if (isfinite(input_value(input, n->inputs[k].which)) == 0) {
+      can = 0;
+    }
+  }
+  return can;
+}
+
+/* Comes to the next instant of the grid, at this input. One that is no number leaves the memory as
+ * it was; once diverged, nothing changes. */
 static inline void narx_tick(const Narx* n, const DamperInput* input, double* state) {
   int k;
-  if (state[1] == 0) {
+  if ((state[1] == 0) && (narx_can_read(n, input) != 0)) {
     double diverged = 0;
     for (k = 0; k < n->member_count; ++k) {
       double* forces = &state[n->forces_at + (k * n->force_size)];
