@@ -116,6 +116,7 @@ TEST_CASE("what cannot be is refused, with what would be right") {
   CHECK(refusal("gap: 1 kg\n").find("my.yaml:1") != std::string::npos);
   CHECK(refusal("gap: wide\n").find("is not a number") != std::string::npos);
   CHECK(refusal("gap: -1 mm\n").find("gap is -0.001 m") != std::string::npos);
+  CHECK(refusal("gap_area: 1 m^2\n").find("gap_area is 1e+06 mm^2") != std::string::npos);
   CHECK(refusal("rod_diameter: 50 mm\n").find("less than the bore") != std::string::npos);
   CHECK(refusal("fluid: 132DG\nyield: paper\n").find("132DG has no yield stress 'paper'") !=
         std::string::npos);

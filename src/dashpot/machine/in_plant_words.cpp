@@ -283,7 +283,8 @@ double read_deviation(ObjectReader& reader, std::string_view key, std::string_vi
   const Value* noise = reader.optional(key);
   if (!noise) return 0;
   const double deviation = read_quantity(*noise, unit);
-  if (deviation <= 0) throw Error(noise->where(), "is not above 0", "leave it out if unknown");
+  if (deviation <= 0)
+    throw Error(noise->where(), std::string(key) + " is not above 0", "leave it out if unknown");
   return deviation;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/escape.h"
@@ -155,6 +156,11 @@ void require_possible(const DamperDescription& d, const std::string& where) {
         where,
         "no piston is left between slot or rod, gap and a bore of " + millimetres(d.bore_diameter),
         "a wider bore or a smaller gap");
+
+  const double bore_area = std::numbers::pi / 4 * d.bore_diameter * d.bore_diameter;
+  if (d.gap_area >= bore_area)
+    throw Error(where, "gap_area is " + format_number(1e6 * d.gap_area, 4) + " mm^2",
+                "less than the bore has, " + format_number(1e6 * bore_area, 4) + " mm^2");
 
   const double across = 2 * d.gap;
   if (across >= d.bore_diameter)
