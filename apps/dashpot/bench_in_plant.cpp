@@ -126,6 +126,34 @@ std::vector<std::shared_ptr<const DamperModel>> true_dampers(const ParameterSet&
   return dampers;
 }
 
+/// Rides of an earlier campaign would be taken for some of this one.
+void require_no_other_rides(const fs::path& folder, const std::vector<VirtualRide>& rides) {
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    const std::string name = entry.path().stem().string();
+    if (entry.path().extension() != ".csv" || !name.starts_with("ride_")) continue;
+    if (std::ranges::none_of(rides, [&](const VirtualRide& r) { return r.recorded.name == name; }))
+      throw Error(entry.path().string(),
+                  "is a ride of an earlier campaign, which would be taken for one of this",
+                  "another --output, or remove it");
+  }
+}
+
+/// Options of a bench that no plant takes.
+void require_no_bench(const CampaignSettings& campaign) {
+  const CampaignSettings usual;
+  if (campaign.motions != usual.motions || !campaign.motion.empty() || !campaign.drive.empty() ||
+      !campaign.experiment.empty())
+    throw UsageError("--in", "a plant is moved by its road or a force, not by motions of a bench",
+                     "leave --motions, --motion, --drive and --experiment out");
+  for (const auto& [option, is_said] :
+       {std::pair{"--cycles", campaign.bench.cycles != usual.bench.cycles},
+        {"--noise", campaign.bench.force_noise != usual.bench.force_noise}})
+    if (is_said)
+      throw UsageError(option, "is of a bench, and has no effect with --in",
+                       "--duration; the noise of sensors as the plant states it, or --grade");
+}
+
 }  // namespace
 
 std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
@@ -195,11 +223,7 @@ void require_no_plant(const PlantBenchSettings& settings) {
 int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& campaign,
                     const std::string& folder, Console& console) {
   // What the plant truly is, and the damper in it.
-  const CampaignSettings usual;
-  if (campaign.motions != usual.motions || !campaign.motion.empty() || !campaign.drive.empty() ||
-      !campaign.experiment.empty())
-    throw UsageError("--in", "a plant is moved by its road or a force, not by motions of a bench",
-                     "leave --motions, --motion, --drive and --experiment out");
+  require_no_bench(campaign);
   const InPlantSetup asked = read_in_plant_setup(settings.plant);
   const InPlantSetup setup =
       with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));
@@ -210,13 +234,17 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
                     to_string(setup.drive_unit),
                 "'voltage' or 'current' of the plant as the damper has it");
 
+  const std::string road = road_of(setup, settings);
+  if (!road.empty() && settings.push != PlantBenchSettings{}.push)
+    throw UsageError("--push", "moves a plant without a road, and this one has one", "--road");
+
   // A ride per level.
   const VirtualCampaignOptions options{
       .duration = settings.duration,
       .sample_rate = campaign.sample_rate > 0 ? campaign.sample_rate : 500,
       .levels = levels_of(setup, campaign, damper),
       .hold = settings.hold,
-      .road = road_of(setup, settings),
+      .road = road,
       .push = settings.push,
       .seed = campaign.bench.seed,
       .monitor = console.monitor()};
@@ -227,6 +255,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   const std::vector<VirtualRide> rides = virtual_campaign(setup, models, options);
 
   // All rides before the first file.
+  require_no_other_rides(folder, rides);
   Value list = Value::array();
   for (const VirtualRide& ride : rides) {
     const fs::path path = fs::path(folder) / (ride.recorded.name + ".csv");

@@ -165,10 +165,11 @@ WatchedPlant prepared(ObservedDampers dampers, const InPlantSetup& setup,
   return watched;
 }
 
-/// Looks at the new days, a few at a time, and keeps each in its order. One that cannot be used is
-/// named and left out.
-void add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
-              const WatchOptions& options, DayState& state, Console& console) {
+/// Looks at the new days, a few at a time, and keeps each in its order. Returns why others are left
+/// out, each with its name.
+std::vector<std::string> add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
+                                  const WatchOptions& options, DayState& state) {
+  std::vector<std::string> left_out;
   const int threads = options.threads > 0 ? options.threads : default_threads();
   const std::size_t batch = 2 * static_cast<std::size_t>(threads);
 
@@ -192,14 +193,13 @@ void add_days(const WatchedPlant& watched, const std::vector<NewDay>& todo,
 
     // In their order into the state.
     for (std::size_t k = 0; k < count; ++k) {
-      if (days[k]) {
+      if (days[k])
         state.keep(todo[first + k], std::move(*days[k]));
-        continue;
-      }
-      console.warn("left out: " + faults[k]);
-      console.files_unread = true;
+      else
+        left_out.push_back(std::move(faults[k]));
     }
   }
+  return left_out;
 }
 
 int run_watch(const WatchSettings& settings, Console& console) {
@@ -221,12 +221,15 @@ int run_watch(const WatchSettings& settings, Console& console) {
   // The new days, then the charts of all; before them, what the sensors will not tell.
   const WatchedPlant watched = prepared(std::move(dampers), setup, todo, options, state, console);
   for (const std::string& doubt : hardly_apart(watched)) console.warn(doubt);
-  add_days(watched, todo, options, state, console);
+  const std::vector<std::string> left_out = add_days(watched, todo, options, state);
+  for (const std::string& why : left_out) console.warn("left out: " + why);
+  console.files_unread |= !left_out.empty();
   if (state.days().empty()) throw Error("recordings", "none of them can be used");
   const std::vector<WatchedQuantity> quantities = watch_charts(watched, state.days(), options);
 
   // What they say.
-  const Watched told{watched, state.days(), quantities, options};
+  for (const std::string& day : odd_reference_days(quantities, state.days())) console.warn(day);
+  const Watched told{watched, state.days(), quantities, options, left_out};
   Document document = watch_document(told);
   document.command = console.command_line();
   document.version = DASHPOT_VERSION;

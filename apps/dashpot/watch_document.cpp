@@ -242,6 +242,11 @@ std::string verdict_of(const Watched& watched) {
   if (const std::size_t others = watched.days.size() - count; others > 0)
     verdict += fmt::format(" {} not count: no wear was found under which the sensors are likely.",
                            others == 1 ? "One day does" : std::to_string(others) + " days do");
+  if (!watched.left_out.empty())
+    verdict += fmt::format(" {} left out: no day could be read there.",
+                           watched.left_out.size() == 1
+                               ? "One recording was"
+                               : counted(watched.left_out.size(), "recording") + " were");
   return verdict;
 }
 
@@ -276,6 +281,10 @@ Document watch_document(const Watched& watched) {
       charts.remarks.push_back("Also: " + alarm_text(watched, q) + ".");
   for (const std::string& doubt : hardly_apart(watched.plant))
     charts.remarks.push_back("In doubt: " + doubt + ".");
+  for (const std::string& day : odd_reference_days(watched.quantities, watched.days))
+    charts.remarks.push_back("In doubt: " + day + ".");
+  for (const std::string& why : watched.left_out)
+    charts.remarks.push_back("Left out: " + why + ".");
   if (const std::string noise = identified_noise_words(watched.plant.setup); !noise.empty())
     charts.remarks.push_back(noise);
   charts.tables = {chart_table(watched)};

@@ -129,6 +129,13 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   CHECK(contains(
       run_dashpot("bench --in " + car + " --true sprung_mass=300kg --output " + again).output,
       "sprung_mass is known"));
+  for (const char* option : {"--push 100", "--cycles 3", "--noise 0.5"})
+    CHECK(run_dashpot("bench --in " + car + ' ' + option + " --output " + again).exit_code == 2);
+  write_file(again + "/ride_7.csv", "");
+  CHECK(contains(
+      run_dashpot("bench --in " + car + " --levels 1 --duration 3 --output " + again).output,
+      "ride_7.csv: is a ride of an earlier campaign"));
+  std::filesystem::remove(again + "/ride_7.csv");
   CHECK(contains(run_dashpot("bench --in " + car + " --motions 10x1 --output " + again).output,
                  "a plant is moved by its road or a force"));
   CHECK(contains(run_dashpot("bench --grade exact --output " + again).output,

@@ -63,6 +63,17 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
   CHECK(contains(again.output, "8 days, 0 new recordings looked at"));
   CHECK(contains(again.output, "No alarm on 2 days behind 6 reference days."));
 
+  // A file that is none is named in what is read later, too.
+  const std::string broken = folder.write("day_9.csv", "").string();
+  const ProgramResult without = stdout_of_dashpot(words + broken + " --json");
+  CHECK(without.exit_code == 4);
+  const Value rest = parse_json(without.output, "stdout");
+  REQUIRE(rest.find("left_out")->items().size() == 1);
+  CHECK(contains(rest.find("left_out")->items()[0].as_string(), "day_9.csv: is empty"));
+  CHECK(rest.find("odd_reference_days")->items().empty());
+  CHECK(contains(read_file(out + "/report.md"), "Left out: "));
+  CHECK(contains(read_file(out + "/report.md"), "One recording was left out"));
+
   // A damper that has lost a third of its force: the days before are not looked at again.
   const std::string weak = record_days(folder, plant, "weak", 20, 3, "--wear force=-0.3");
   const ProgramResult faded = stdout_of_dashpot(words + weak + " --json");

@@ -252,6 +252,28 @@ TEST_CASE("watch: a day without motion in a state of before spoils no other") {
   CHECK(std::isfinite(charts.front().chart.points.back().sum));
 }
 
+TEST_CASE("watch: a reference day far from the others is told, and no usual one") {
+  const WatchedPlant watched = watched_oscillator({"force"});
+  const auto told = [&](double odd) {
+    std::vector<WatchedDay> days;
+    for (const double wear : {0.034, 0.024, 0.025, 0.019, odd, 0.02, -0.25, -0.25})
+      days.push_back({.estimate = {.name = "day " + std::to_string(days.size()),
+                                   .wear = {wear},
+                                   .wear_deviation = {0.01},
+                                   .plant = {10},
+                                   .plant_deviation = {0.1},
+                                   .excitation = 1 + 0.1 * double(days.size() % 3),
+                                   .converged = true},
+                      .known = {}});
+    const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
+    return odd_reference_days(watch_charts(watched, days, options), days);
+  };
+  CHECK(told(0.03).empty());
+  REQUIRE(told(-0.258).size() == 1);
+  CHECK(contains(told(-0.258).front(),
+                 "day 4 lies far from the other reference days: force is -26 %"));
+}
+
 TEST_CASE("watch: what was found and the days come back as they were kept") {
   WatchedPlant watched = watched_oscillator({"force"});
   watched.setup.unknown.front().about = 10.5;

@@ -248,6 +248,40 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
   return quantities;
 }
 
+std::vector<std::string> odd_reference_days(const std::vector<WatchedQuantity>& quantities,
+                                            const std::vector<WatchedDay>& days) {
+  constexpr double kOdd = 3.5;  // of normal numbers one in 2000 goes beyond
+  constexpr std::size_t kFewest = 4;
+  std::vector<std::string> sentences;
+  for (const WatchedQuantity& q : quantities) {
+    std::vector<std::size_t> reference;
+    for (std::size_t d = 0; d < days.size(); ++d)
+      if (days[d].estimate.converged && !q.chart.points[d].is_judged) reference.push_back(d);
+    if (reference.size() < kFewest) continue;
+
+    // Each beside the mean and the scatter of the others: of normal numbers a Student's t.
+    const auto others = static_cast<double>(reference.size() - 1);
+    for (const std::size_t odd : reference) {
+      double sum = 0, squares = 0;
+      for (const std::size_t d : reference)
+        if (d != odd) sum += days[d].estimate.wear[q.place];
+      const double mean = sum / others, value = days[odd].estimate.wear[q.place];
+      for (const std::size_t d : reference)
+        if (d != odd) squares += std::pow(days[d].estimate.wear[q.place] - mean, 2);
+      const double scatter = std::sqrt(squares / (others - 1));
+      if (!(scatter > 0)) continue;
+      const double t = (value - mean) / (scatter * std::sqrt(1 + 1 / others));
+      if (std::abs(normal_score(others - 1, t)) < kOdd) continue;
+      sentences.push_back(days[odd].estimate.name + " lies far from the other reference days: " +
+                          q.name + " is " + amount_words(value, q) + ", theirs " +
+                          amount_words(mean, q) + " +- " + amount_words(scatter, q) +
+                          "; the chart takes that for the scatter of healthy days, and may be "
+                          "blind to a fade: if it is no healthy day, start anew without it");
+    }
+  }
+  return sentences;
+}
+
 const WatchedQuantity* first_alarm_of(const std::vector<WatchedQuantity>& quantities) {
   const WatchedQuantity* first = nullptr;
   const auto beyond = [](const WatchedQuantity& q) {

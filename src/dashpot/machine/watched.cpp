@@ -85,6 +85,12 @@ Value to_json(const Watched& watched) {
     if (alarm) told.add("first_alarm", alarm->name);
   }
 
+  Value left_out = Value::array(), odd = Value::array();
+  for (const std::string& why : watched.left_out) left_out.push_back(why);
+  for (std::string& day : odd_reference_days(watched.quantities, watched.days))
+    odd.push_back(std::move(day));
+  told.add("left_out", std::move(left_out));
+  told.add("odd_reference_days", std::move(odd));
   told.add("alarm", alarm != nullptr);
   told.add("days_between_false_alarms", watched.options.chart.days);
   told.add("reference_days", watched.options.chart.reference);

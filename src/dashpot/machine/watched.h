@@ -12,6 +12,7 @@ struct Watched {
   const std::vector<WatchedDay>& days;
   const std::vector<WatchedQuantity>& quantities;
   const WatchOptions& options;
+  std::vector<std::string> left_out = {};  ///< why a recording is no day, a sentence each
 
   /// As first_alarm_of().
   const WatchedQuantity* first_alarm() const;
