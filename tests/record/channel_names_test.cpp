@@ -47,6 +47,10 @@ TEST_CASE("columns are recognised by their names") {
       {"kN force", "", "force", "kN"},
       {"Force|kN", "", "force", "kN"},
       {"mm cm displacement", "", "displacement", ""},
+      {"load 10 kN cell", "", "force", ""},
+      {"...", "", "", ""},
+      {"10kN load", "", "force", ""},
+      {"force.1", "", "force", ""},
   };
   for (const Known& k : known) {
     CAPTURE(std::string(k.column));

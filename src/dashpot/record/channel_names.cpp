@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
 
 #include "dashpot/base/text.h"
@@ -264,13 +265,15 @@ NamedChannel with_unknown_unit(std::string_view column) {
 
 /// A usual unit of the channel that stands as a word anywhere in a name: "kN force",
 /// "Force_kN_filt"; "" where there is none, or more than one. A letter alone, or "in", may mean
-/// anything.
+/// anything; behind a number stands the range of a sensor: "10 kN load cell".
 std::string unit_among_words(std::string_view name, std::string_view channel) {
   const std::string usual(usual_units(channel));
-  std::string spaced, found;
-  for (const char c : name) spaced += std::isalpha(static_cast<unsigned char>(c)) ? c : ' ';
+  std::string spaced, found, before;
+  for (const char c : name) spaced += std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
   for (const std::string& word : split(spaced, ' ')) {
-    if (word.size() < 2 || word == "in" || word == found || !contains_word(usual, word)) continue;
+    const bool is_range = std::exchange(before, word).find_first_of("0123456789") == 0;
+    const bool is_unit = word.size() >= 2 && word != "in" && contains_word(usual, word);
+    if (!is_unit || is_range || word == found) continue;
     if (!found.empty()) return {};
     found = word;
   }
@@ -291,10 +294,17 @@ std::string as_typed(std::string_view column) {
     if (last != std::string::npos) name.erase(last + 1);
   }
 
-  // Points between words as one underscore.
+  // Points before a letter as one underscore; "force.1" and "0.5A" keep theirs.
   std::string typed;
-  for (const char c : name)
-    if (c != '.' || typed.empty() || typed.back() != '_') typed += c == '.' ? '_' : c;
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    const std::size_t next = name.find_first_not_of('.', k);
+    if (next == k || next >= name.size() || !std::isalpha(static_cast<unsigned char>(name[next]))) {
+      typed += name[k];
+      continue;
+    }
+    typed += '_';
+    k = next - 1;
+  }
   return typed;
 }
 

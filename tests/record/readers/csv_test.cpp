@@ -77,6 +77,10 @@ TEST_CASE("a column without a name, which counts the rows, moves no other") {
     CHECK(table.columns[2].values == std::vector<double>{1.5, 2.5, 3.5});
   }
 
+  // Numbers that count beside separators at the end are a time.
+  const RawTable ended = read_text("t;x;F\n0;1.5;2;\n1;2.5;3;\n2;3.5;4;\n");
+  CHECK(names(ended) == std::vector<std::string>{"t", "x", "F"});
+
   // A first unit that is empty moves none either.
   const RawTable table = read_text("n\tt\tx\n\ts\tmm\n" + rows);
   CHECK(table.columns[1].unit == "s");

@@ -159,7 +159,8 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
   return std::string::npos;
 }
 
-/// Whether the first column counts the lines: 0, 1, 2 ... or 1, 2, 3 ..., three at least.
+/// Whether the first column counts the lines, 0, 1, 2 ... or 1, 2, 3 ..., three at least, which no
+/// separator ends.
 bool counts_lines(const std::vector<std::string>& lines, const CsvDialect& dialect) {
   constexpr std::size_t kFewest = 3;
   std::vector<double> counts;
@@ -167,6 +168,7 @@ bool counts_lines(const std::vector<std::string>& lines, const CsvDialect& diale
   for (std::size_t k = dialect.first_data_line; k < lines.size() && counts.size() < kFewest; ++k) {
     if (is_comment(lines[k])) continue;
     split_cells(lines[k], dialect.separator, cells);
+    if (cells.back().empty()) return false;
     counts.push_back(number_of_cell(cells.front(), dialect.decimal, 0).value_or(-1));
   }
   return counts.size() == kFewest && (counts[0] == 0 || counts[0] == 1) &&
