@@ -2,6 +2,7 @@
 
 #include "c_compile.h"
 #include "damper/inverse/example_network.h"
+#include "damper/kinds/narx/narx_example.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_source.h"
 #include "export/example_models.h"
@@ -69,6 +70,38 @@ TEST_CASE("exported C: a test of another model's force fails") {
   folder.write("x.c", source.source);
   folder.write("x_test.c", other.test);
   CHECK(compile_and_run(folder, "").output.find("FAILED x") != std::string::npos);
+}
+
+TEST_CASE("exported C: a NARX leaves an input that is no number out, and goes on") {
+  if (!is_there("cc")) return;
+  const Regressors regressors = example_regressors();
+  const NarxModel model("narx_one_sensor", regressors, {example_narx_network(regressors)}, 0);
+  const CSource source = c_source(exported(model), {.name = "x", .sample_time = 5e-3});
+
+  // Two runs of one motion, one of which loses the velocity once.
+  const TemporaryFolder folder;
+  folder.write("x.h", source.header);
+  folder.write("x.c", source.source);
+  folder.write("x_test.c", R"(#include <math.h>
+#include <stdio.h>
+int main(void) {
+  x_model whole, holed;
+  double apart = 1, force = 0;
+  int k;
+  for (k = 0; k < 400; ++k) {
+    const x_input input = {0.005 * sin(0.1 * k), 0.1 * cos(0.1 * k), 0.5};
+    x_input lost = input;
+    if (k == 50) lost.velocity = NAN;
+    if (k == 0) x_reset(&whole, &input), x_reset(&holed, &input);
+    force = x_step(&whole, &input);
+    apart = fabs(x_step(&holed, &lost) - force);
+    if (k == 50 && !(apart < 2000)) return 1;
+  }
+  printf("%g beside %g\n", apart, force);
+  return apart < 1 ? 0 : 1;
+}
+)");
+  check_that_it_runs(folder, kAsTheTests);
 }
 
 TEST_CASE("exported C: a name that the code has inside is refused") {

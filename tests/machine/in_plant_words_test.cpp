@@ -80,7 +80,7 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
   CHECK(contains(refused(with(", at: body", "")), "says not where; at: one of body, wheel"));
   CHECK(contains(refused(with("quantity: deflection", "quantity: travel")),
                  "unknown quantity 'travel'"));
-  CHECK(contains(refused(with("0.2 mm", "-1 mm")), "is not above 0"));
+  CHECK(contains(refused(with("0.2 mm", "-1 mm")), "noise is not above 0"));
   CHECK(contains(refused(with("start: rest", "start: moving")), "rest or unknown"));
   CHECK(contains(refused(with("held_back: 0.3", "held_back: 1.3")), "0 to below 0.9"));
   CHECK(contains(refused(with("current: coil", "current: coil\nvoltage: 1")), "not by both"));

@@ -1,5 +1,6 @@
 #include "dashpot/record/readers/mat.h"
 
+#include <cmath>
 #include <matio.h>
 
 #include <hdf5.h>
@@ -7,6 +8,7 @@
 #include "arrays_in_process.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
+#include "dashpot/dataset.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/mat_guard.h"
 #include "mat_arrays.h"
@@ -61,6 +63,28 @@ TEST_CASE("MAT files of all versions hold the same") {
     }
     REQUIRE(table.scalars.size() == 1);
     CHECK(table.scalars[0].second == 0.01);
+  }
+}
+
+TEST_CASE("a Ts or fs whose steps are no seconds of any test is asked about") {
+  const TemporaryFolder folder;
+  for (const auto& [name, value] : {std::pair{"Ts", 5.0}, {"fs", 0.2}}) {
+    const auto path = folder.path() / (std::string(name) + ".mat");
+    mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+    REQUIRE(file);
+    std::vector<double> motion;
+    for (int k = 0; k < 40; ++k) motion.push_back(0.01 * std::sin(0.3 * k));
+    const auto write = [&](const char* variable, std::vector<double> data) {
+      std::size_t dims[] = {data.size(), 1};
+      matvar_t* array =
+          Mat_VarCreate(variable, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, data.data(), 0);
+      Mat_VarWrite(file, array, MAT_COMPRESSION_NONE);
+      Mat_VarFree(array);
+    };
+    write("displacement", motion), write("force", motion), write(name, {value});
+    Mat_Close(file);
+    CHECK(contains(message_of([&] { load_dataset({path}); }),
+                   std::string(name) + " has no unit and means steps of 5, which are no seconds"));
   }
 }
 
