@@ -256,7 +256,9 @@ std::vector<std::string> odd_reference_days(const std::vector<WatchedQuantity>& 
   for (const WatchedQuantity& q : quantities) {
     std::vector<std::size_t> reference;
     for (std::size_t d = 0; d < days.size(); ++d)
-      if (days[d].estimate.converged && !q.chart.points[d].is_judged) reference.push_back(d);
+      if (days[d].estimate.converged && days[d].estimate.excitation > 0 &&
+          !q.chart.points[d].is_judged)
+        reference.push_back(d);
     if (reference.size() < kFewest) continue;
 
     // Each beside the mean and the scatter of the others: of normal numbers a Student's t.
@@ -275,8 +277,9 @@ std::vector<std::string> odd_reference_days(const std::vector<WatchedQuantity>& 
       sentences.push_back(days[odd].estimate.name + " lies far from the other reference days: " +
                           q.name + " is " + amount_words(value, q) + ", theirs " +
                           amount_words(mean, q) + " +- " + amount_words(scatter, q) +
-                          "; the chart takes that for the scatter of healthy days, and may be "
-                          "blind to a fade: if it is no healthy day, start anew without it");
+                          "; unless something known explains it, the chart takes that for the "
+                          "scatter of healthy days, and may be blind to a fade: if it is no "
+                          "healthy day, start anew without it");
     }
   }
   return sentences;

@@ -292,7 +292,7 @@ std::optional<std::string> wrong_scale(const Record& record, const Samples& disp
   const double ratio = std::sqrt(measured / derived);
   if (ratio < kMost && ratio > 1 / kMost) return std::nullopt;
   return "the velocity is " + format_number(ratio, 3) +
-         " times that of the displacement: the unit of one of them is wrong";
+         " times that of the displacement: the unit of one of them may be wrong";
 }
 
 }  // namespace

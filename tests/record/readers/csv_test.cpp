@@ -74,6 +74,7 @@ TEST_CASE("a column without a name, which counts the rows, moves no other") {
   for (const std::string head : {"\tt\tx\n", "t\tx\n"}) {
     const RawTable table = read_text(head + rows);
     CHECK(names(table) == std::vector<std::string>{"", "t", "x"});
+    CHECK(table.notes.size() == (head.front() == 't' ? 1 : 0));  // what is guessed is told
     CHECK(table.columns[2].values == std::vector<double>{1.5, 2.5, 3.5});
   }
 

@@ -273,6 +273,9 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
 
   drop_empty_columns(table);
   refuse_moved_columns(table, dialect);
+  if (dialect.counts_rows)
+    table.notes.push_back(
+        "there is one name fewer than columns: the first, which counts the rows, has none");
   if (dialect.thousands)
     table.notes.push_back(std::string("numbers are read with '") + dialect.thousands +
                           "' between thousands and '" + dialect.decimal + "' as decimal sign");

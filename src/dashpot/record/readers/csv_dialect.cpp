@@ -195,6 +195,7 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
 
   // Names that are one too few leave out the first column where that counts the lines.
   if (cells.size() + 1 == columns && counts_lines(lines, dialect)) {
+    dialect.counts_rows = true;
     cells.insert(cells.begin(), "");
     std::ranges::rotate(dialect.units, dialect.units.end() - 1);
   }
@@ -202,33 +203,39 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
     dialect.names[k] = std::string(cells[k]);
 }
 
-/// Whether the sign that was taken for the decimal one stands between thousands: no number with it
-/// shows anything but groups ("1,124", never "0,5"), and of a column that has it, some numbers of
-/// three digits are without ("987").
+/// What a number tells of the sign that was taken for the decimal one.
+enum class Grouping { Nothing, Without, Group, Decimal };
+
+/// "1,124" is a group, "0,5" and "1,09" are decimals; "987" would have none in either case.
+Grouping grouping_of(std::string_view cell, char decimal) {
+  if (!parse_number(cell, decimal)) return Grouping::Nothing;
+  const std::string_view digits = cell.substr(cell.find_first_not_of("+-"));
+  const bool has_zero = digits.front() == '0';
+  if (digits.find(decimal) == std::string_view::npos)
+    return digits.size() == 3 && !has_zero ? Grouping::Without : Grouping::Nothing;
+  const bool is_group = without_thousands(digits, other_sign(decimal), decimal).has_value();
+  return is_group && !has_zero ? Grouping::Group : Grouping::Decimal;
+}
+
+/// Whether that sign stands between thousands: no number has it for a decimal one, and a column
+/// that has groups has numbers of three digits without one too.
 bool separates_thousands(const std::vector<std::string>& lines, const CsvDialect& dialect) {
-  std::vector<char> is_grouped, is_plain;
+  std::vector<std::pair<bool, bool>> columns;  // whether each has groups, and numbers without
   Cells cells;
   for (std::size_t line = dialect.first_data_line; line < lines.size(); ++line) {
     if (is_comment(lines[line])) continue;
     split_cells(lines[line], dialect.separator, cells);
-    is_grouped.resize(std::max(is_grouped.size(), cells.size()));
-    is_plain.resize(is_grouped.size());
+    columns.resize(std::max(columns.size(), cells.size()));
+
+    // One decimal is enough to know.
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      if (!parse_number(cells[k], dialect.decimal)) continue;
-      const std::string_view digits = cells[k].substr(cells[k].find_first_not_of("+-"));
-      if (digits.find(dialect.decimal) == std::string_view::npos) {
-        is_plain[k] |= digits.size() == 3 && digits.front() != '0';
-        continue;
-      }
-      if (digits.front() == '0' ||
-          !without_thousands(digits, other_sign(dialect.decimal), dialect.decimal))
-        return false;
-      is_grouped[k] = true;
+      const Grouping grouping = grouping_of(cells[k], dialect.decimal);
+      if (grouping == Grouping::Decimal) return false;
+      columns[k].first |= grouping == Grouping::Group;
+      columns[k].second |= grouping == Grouping::Without;
     }
   }
-  for (std::size_t k = 0; k < is_grouped.size(); ++k)
-    if (is_grouped[k] && is_plain[k]) return true;
-  return false;
+  return std::ranges::find(columns, std::pair{true, true}) != columns.end();
 }
 
 /// "#N/A" at the start of a row of a sheet, which is no comment; English and German.

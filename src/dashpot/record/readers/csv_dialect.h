@@ -14,6 +14,7 @@ struct CsvDialect {
   std::size_t first_data_line = 0;  ///< index into the sample of lines
   std::vector<std::string> names;   ///< one per column; all "" when no line names them
   std::vector<std::string> units;   ///< from a row of units; "" where there is none
+  bool counts_rows = false;         ///< the first column does, and the line of names leaves it out
 };
 
 /// Splits one line into cells, trimmed and without their quotes. Cells point into `line` and are
