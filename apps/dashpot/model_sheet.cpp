@@ -187,13 +187,13 @@ void describe(ModelSheet& sheet, const FamilyPreset& preset) {
   }
   if (preset.form == FamilyForm::Line) {
     sheet.numbers = 2 * FamilyLine::kMostFeatures + 1;
-    add_states(sheet, 1, "q, m^2/s^2");
+    add_states(sheet, 1, "q, m/s");
     return;
   }
   if (preset.form == FamilyForm::Physics) {
     sheet.numbers = kPhysicsNumbers + 1;
     add_states(sheet, 2, "f, N");
-    add_states(sheet, 1, "q, m^2/s^2");
+    add_states(sheet, 1, "p, m/s");
     return;
   }
 

@@ -2,10 +2,12 @@
  * library takes in and the C export ships:
  *
  *   F = g (f_1 + f_2) + F_0,  f_k' = K_k (v - u_k),  f_k = u_k D_k(s_k) / s_k,
- *   s_k^2 = b q + (1 - b) u_k^2 + s_0^2,  q' = (v^2 - q) / t
+ *   s_k^2 = b (p^2 + (v - p)^2) + (1 - b) u_k^2 + s_0^2,  p' = w (v - p)
  *
- * with the seal's force D_1 and the force D_2 of the plate flow at a speed s_k. State: f_1 and f_2,
- * N, and q, m^2/s^2. Geometry, fluid and yield stress are arguments: they may change while it runs.
+ * with the seal's force D_1 and the force D_2 of the plate flow at a speed s_k. In a sine at w, p
+ * and v - p are a quarter of a cycle apart and equally large, so that their squares sum to the mean
+ * square of v at every instant. State: f_1 and f_2, N, and p, m/s. Geometry, fluid and yield stress
+ * are arguments: they may change while it runs.
  */
 #ifndef DASHPOT_PHYSICS_FAMILY_H
 #define DASHPOT_PHYSICS_FAMILY_H
@@ -17,14 +19,13 @@ typedef enum PhysicsIndex {
   kViscousShare,
   kSealForce,
   kSealGive,
+  kSealGain,
+  kSealHalf,
   kStiffness,
   kFieldExponent,
-  kFieldGain,
-  kFieldHalf,
   kAsymmetry,
-  kMemory,
+  kRoundness,
   kOnset,
-  kGeometryShare,
   kGapOfAll,
   kLengthOfAll,
   kFluidOfAll,
@@ -57,7 +58,8 @@ typedef struct PhysicsMember {
 typedef struct PhysicsElement {
   double seal, seal_stiffness;         /* N, N/m */
   double yielding, viscous, stiffness; /* N, N s/m, N/m */
-  double asymmetry, memory, slow, time;
+  double asymmetry, roundness, slow;
+  double rate;    /* rad/s, of p */
   double offset;  /* N, of this build */
   double passive; /* N s/m, of gaps without field in the same flow */
 } PhysicsElement;
@@ -151,10 +153,10 @@ static inline double physics_flow(double yielding, double viscous, double passiv
   return pull * (pressure + passive * speed) / (pressure + beside * speed);
 }
 
-/* How the yielding force goes with the field. */
+/* How the yielding force and the seal's friction go with the field. */
 typedef struct PhysicsField {
   double yield_stress, exponent; /* Pa, 1 */
-  double gain, half, most;       /* 1, A, A */
+  double seal_gain, half, most;  /* 1, A, A */
 } PhysicsField;
 
 /* n: the learnt numbers. */
@@ -162,28 +164,29 @@ static inline PhysicsField physics_field(const PhysicsReference* r, const double
   PhysicsField f;
   f.yield_stress = r->yield_stress;
   f.exponent = n[kFieldExponent];
-  f.gain = n[kFieldGain];
-  f.half = r->current * exp(n[kFieldHalf]);
+  f.seal_gain = n[kSealGain];
+  f.half = r->current * exp(n[kSealHalf]);
   f.most = 1e6 * r->current;
   return f;
 }
 
-/* What the field multiplies the yielding force by: a power of the yield stress, Pa, at this
- * current, and a share of the current that saturates. */
-static inline double physics_field_at(const PhysicsField* f, double yield_stress, double current) {
+/* What the field makes of a damper: its yielding force goes with a power of the yield stress, Pa,
+ * at this current, and the seal's friction with a share of the current that saturates. */
+static inline void physics_apply_field(const PhysicsField* f, double yield_stress, double current,
+                                       PhysicsElement* element) {
   const double i = fmin(fabs(current), f->most);
-  return pow(yield_stress / f->yield_stress, f->exponent) * exp(f->gain * i / (i + f->half));
+  element->yielding *= pow(yield_stress / f->yield_stress, f->exponent);
+  element->seal *= exp(f->seal_gain * i / (i + f->half));
 }
 
-/* One damper where physics_field_at() is 1; its yielding force alone goes with the field. n: the
- * learnt numbers; d: how this build differs, logarithms of force, flow and springs, and the offset
+/* One damper before physics_apply_field(), which leaves its springs as they are. n: the learnt
+ * numbers; d: how this build differs, logarithms of force, flow and springs, and the offset
  * over the reference force. */
 static inline PhysicsElement physics_drawn(const PhysicsReference* r, const double* n,
                                            const double* d, const PhysicsMember* m) {
   /* Logarithms over the middle of the family. */
   const double gap = log(m->gap / r->gap), length = log(m->pole_length / r->pole_length);
   const double area = log(m->piston_area / r->piston_area);
-  const double width = log(m->gap_area / m->gap / (r->gap_area / r->gap));
   const double fluid = 0.5 * log(m->viscosity / r->viscosity);
 
   /* What multiplies the whole force, and the flow beside. */
@@ -192,24 +195,22 @@ static inline PhysicsElement physics_drawn(const PhysicsReference* r, const doub
   const double flow = d[1] + n[kGapOfYield] * gap + n[kLengthOfYield] * length +
                       n[kAreaOfYield] * area + n[kFluidOfYield] * fluid;
 
-  /* Plate flow at the middle of the family, and the power of geometry that the data ask for. */
-  const PlateGap middle = {r->pole_length, r->gap_area / r->gap, r->gap};
-  const double yielding = r->piston_area * plate_yield_pressure(&middle, r->yield_stress);
+  /* The plate flow of its own gap, at the family's yield stress. */
+  const PlateGap drawn = {m->pole_length, m->gap_area / m->gap, m->gap};
+  const double yielding = m->piston_area * plate_yield_pressure(&drawn, r->yield_stress);
   const double viscous =
-      r->piston_area * plate_newtonian_pressure(&middle, m->viscosity, r->piston_area);
-  const double yield_geometry = length - gap + area;
-  const double viscous_geometry = length + 2 * area - width - 3 * gap;
+      m->piston_area * plate_newtonian_pressure(&drawn, m->viscosity, m->piston_area);
 
   PhysicsElement e;
   e.seal = all * r->force * exp(n[kSealForce]);
   e.seal_stiffness = e.seal / r->stroke * exp(d[2] - n[kSealGive]);
-  e.yielding = all * yielding * exp(n[kYieldShare] + flow + n[kGeometryShare] * yield_geometry);
-  e.viscous = all * viscous * exp(n[kViscousShare] + flow + n[kGeometryShare] * viscous_geometry);
+  e.yielding = all * yielding * exp(n[kYieldShare] + flow);
+  e.viscous = all * viscous * exp(n[kViscousShare] + flow);
   e.stiffness = all * r->force / r->stroke * exp(d[2] + n[kStiffness]);
   e.asymmetry = n[kAsymmetry];
-  e.memory = n[kMemory];
+  e.roundness = n[kRoundness];
   e.slow = r->speed * exp(n[kOnset]);
-  e.time = 2 * 3.141592653589793 * r->stroke / r->speed;
+  e.rate = r->speed / r->stroke;
   e.offset = r->force * d[3];
   e.passive = 0;
   return e;
@@ -221,7 +222,7 @@ static inline PhysicsElement physics_element(const PhysicsReference* r, const do
                                              double yield_stress, double current) {
   const PhysicsField field = physics_field(r, n);
   PhysicsElement e = physics_drawn(r, n, d, m);
-  e.yielding *= physics_field_at(&field, yield_stress, current);
+  physics_apply_field(&field, yield_stress, current, &e);
   return e;
 }
 
@@ -249,11 +250,13 @@ static inline double physics_step(double force, double stiffness, double yieldin
                       force + (1 - stage) * dt * rate + spring * to, spring, second);
 }
 
-/* Of the remembered square of the speed. */
-static inline PhysicsSpeed physics_speed(const PhysicsElement* e, double remembered) {
+/* Of a velocity and the one that follows it. */
+static inline PhysicsSpeed physics_speed(const PhysicsElement* e, double velocity,
+                                         double follower) {
+  const double ahead = velocity - follower;
   PhysicsSpeed at;
-  at.rest = e->memory * remembered + e->slow * e->slow;
-  at.own = 1 - e->memory;
+  at.rest = e->roundness * (follower * follower + ahead * ahead) + e->slow * e->slow;
+  at.own = 1 - e->roundness;
   at.slow = sqrt(at.rest);
   at.root = sqrt(at.own);
   return at;
@@ -264,12 +267,13 @@ static inline PhysicsSpeed physics_speed(const PhysicsElement* e, double remembe
 static inline void physics_advance(const PhysicsElement* e, double from, double to, double dt,
                                    double* state) {
   if (dt > 0) {
-    /* The remembered square of the speed, its drive taken at its mean over the step. */
+    /* What follows the velocity takes it at its mean over the step. */
     const double stage = 1 - sqrt(0.5);
-    const double keep = exp(-dt / e->time), before = state[2];
-    const double after = before * keep + (from * from + from * to + to * to) / 3 * (1 - keep);
-    const PhysicsSpeed first = physics_speed(e, before + stage * (after - before));
-    const PhysicsSpeed second = physics_speed(e, after);
+    const double keep = exp(-e->rate * dt), before = state[2];
+    const double after = before * keep + 0.5 * (from + to) * (1 - keep);
+    const PhysicsSpeed first =
+        physics_speed(e, from + stage * (to - from), before + stage * (after - before));
+    const PhysicsSpeed second = physics_speed(e, to, after);
     state[2] = after;
     state[0] =
         physics_step(state[0], e->seal_stiffness, e->seal, 0, 0, 0, from, to, dt, &first, &second);

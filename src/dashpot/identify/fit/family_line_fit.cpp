@@ -45,16 +45,16 @@ struct Ellipse {
 };
 
 Ellipse ellipse_of(const FamilyLine& line, const FamilyRecord& record) {
-  // The normal equations of the line's terms, the amplitude remembered from the record's start.
+  // The normal equations of the line's terms, the velocity followed from the record's start.
   std::vector<double> square(9), right(3), found(3);
-  double remembered = 0;
+  double follower = 0;
   for (std::size_t k = 0; k < record.force.size(); ++k) {
     const DamperInput& input = record.inputs[k];
     if (k > 0)
-      remembered = line.remember(remembered, record.inputs[k - 1].velocity, input.velocity,
+      follower = line.follow(follower, record.inputs[k - 1].velocity, input.velocity,
                                  record.time[k] - record.time[k - 1]);
     if (k < record.first) continue;
-    const double r = line.amplitude(input, remembered);
+    const double r = line.amplitude(input, follower);
     const std::array<double, 3> term{input.velocity / r,
                                      line.frequency * (input.displacement - line.centre) / r, 1};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -76,10 +76,10 @@ inline FamilyModel example_family_physics() {
   FamilyPhysics physics;
   physics.reference = {2e-4, 3e-5, 1.2e-3, 8e-3, 0.2, 2e4, 0.5, 15, 0.05, 0.02};
   physics.numbers = FamilyPhysics::priors();
-  physics.numbers[kMemory] = 0.3;
+  physics.numbers[kRoundness] = 0.3;
   physics.numbers[kGapOfYield] = 0.2;
   physics.numbers[kLengthOfAll] = -0.1;
-  physics.numbers[kFieldGain] = 0.4;
+  physics.numbers[kSealGain] = 0.4;
   physics.numbers[kAsymmetry] = 0.1;
   physics.deviation = {0.05, -0.1, 0.2, 0.03};
   Family family = family_of(std::make_shared<PhysicsFamily>(physics));

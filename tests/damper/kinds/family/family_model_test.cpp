@@ -111,8 +111,11 @@ TEST_CASE("damaged files of a family are refused") {
   CHECK(refuses(with(gates, "\"mark\"", "\"skip\""), "mark or refuse"));
   CHECK(refuses(with(gates, "\"gap\": 0.001", "\"gap\": -0.001"), "gap is -0.001"));
   CHECK(refuses(with(gates, "\"half_current\": 0.6", "\"half_current\": 0"), "half_current"));
+  for (const char* earlier : {"line", "physics"})
+    CHECK(refuses(with(gates, "\"kind\": \"gates\"", "\"kind\": \"" + std::string(earlier) + '"'),
+                  "fit it again"));
   CHECK(refuses(with(gates, "\"kind\": \"gates\"", "\"kind\": \"gate\""),
-                "network, gates, line or physics"));
+                "network, gates, ellipses or plate_flow"));
   CHECK(refuses(with(gates, "\"target\": \"total\"", "\"target\": \"tot\""), "unknown target"));
   CHECK(refuses(with(network, "\"yield_stress\"", "\"yield\""), "unknown input"));
 }

@@ -14,11 +14,11 @@ using namespace dashpot;
 
 namespace {
 
-/// Physics as it stands in books: nothing learnt, no memory, stiff springs.
+/// Physics as it stands in books: nothing learnt, no rounding, stiff springs.
 FamilyPhysics book_physics() {
   FamilyPhysics physics;
   physics.numbers = FamilyPhysics::priors();
-  physics.numbers[kYieldShare] = physics.numbers[kMemory] = 0;
+  physics.numbers[kYieldShare] = physics.numbers[kRoundness] = 0;
   physics.numbers[kSealForce] = std::log(15.);
   physics.numbers[kSealGive] = -6;
   physics.numbers[kStiffness] = 8;
@@ -116,10 +116,10 @@ TEST_CASE("gap, area and viscosity act on its force as on that of the plate flow
 }
 
 TEST_CASE("whatever sets its resistances, a closed cycle takes energy out") {
-  // Corrections, memory and asymmetry of any size, and a current that jumps amid the motion.
+  // Corrections, rounding and asymmetry of any size, and a current that jumps amid the motion.
   FamilyPhysics physics = book_physics();
-  for (const double memory : {0.0, 0.5, 1.0}) {
-    physics.numbers[kMemory] = memory;
+  for (const double roundness : {0.0, 0.5, 1.0}) {
+    physics.numbers[kRoundness] = roundness;
     physics.numbers[kAsymmetry] = 0.4;
     physics.numbers[kStiffness] = 1;
     physics.numbers[kSealGive] = 0;
@@ -148,7 +148,7 @@ TEST_CASE("whatever sets its resistances, a closed cycle takes energy out") {
 
 TEST_CASE("steps of any size lead to the same force") {
   FamilyPhysics physics = book_physics();
-  physics.numbers[kMemory] = 0.7;
+  physics.numbers[kRoundness] = 0.7;
   physics.numbers[kStiffness] = 1;
   const auto end = [&](int steps) {
     const FamilyModel model = physics_model(physics);
@@ -170,7 +170,7 @@ TEST_CASE("steps of any size lead to the same force") {
 TEST_CASE("the force grows with the current and is odd in the velocity") {
   FamilyPhysics physics = book_physics();
   physics.numbers[kFieldExponent] = 0.4;
-  physics.numbers[kFieldGain] = 0.5;
+  physics.numbers[kSealGain] = 0.5;
   const FamilyModel model = physics_model(physics);
   double last = 0;
   for (const double i : {0.0, 0.1, 0.3, 0.6, 1.0, 5.0}) {

@@ -98,8 +98,12 @@ std::unique_ptr<FamilyForce> family_force_from_json(const Value& value) {
   if (kind.as_string() == "gates") return read_gates(value, reader);
   if (kind.as_string() == kLineFamily) return read_line_family(value, reader);
   if (kind.as_string() == kPhysicsFamily) return read_physics_family(value, reader);
+  if (kind.as_string() == "line" || kind.as_string() == "physics")
+    throw Error(kind.where(),
+                "is a family of an earlier version, which told a motion's speed in another way",
+                "fit it again: dashpot identify or rank, with its recordings");
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              "network, gates, line or physics");
+              "network, gates, ellipses or plate_flow");
 }
 
 Value FamilyModel::to_json() const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dashpot/error.h"
 
@@ -35,31 +34,31 @@ LineFamily::LineFamily(FamilyLine line, const std::string& where) : line_(std::m
   require_line(line_, where);
 }
 
-double FamilyLine::period() const noexcept { return 2 * std::numbers::pi / frequency; }
-
-double FamilyLine::amplitude(const DamperInput& input, double remembered) const noexcept {
+double FamilyLine::amplitude(const DamperInput& input, double follower) const noexcept {
   const double v = input.velocity, u = frequency * (input.displacement - centre);
-  return std::sqrt(std::max(2 * remembered, 0.5 * (v * v + u * u)) + slow * slow);
+  const double ahead = v - follower;
+  return std::sqrt(
+      std::max(2 * (follower * follower + ahead * ahead), 0.5 * (v * v + u * u)) + slow * slow);
 }
 
-double FamilyLine::remember(double before, double from, double to, double dt) const noexcept {
-  const double keep = std::exp(-dt / period());
-  return before * keep + (from * from + from * to + to * to) / 3 * (1 - keep);
+double FamilyLine::follow(double before, double from, double to, double dt) const noexcept {
+  const double keep = std::exp(-frequency * dt);
+  return before * keep + 0.5 * (from + to) * (1 - keep);
 }
 
 void LineFamily::advance(const FamilyMember&, const DamperInput& from, const DamperInput& to,
                          double dt, std::span<double> state) const noexcept {
-  state[0] = line_.remember(state[0], from.velocity, to.velocity, dt);
+  state[0] = line_.follow(state[0], from.velocity, to.velocity, dt);
 }
 
 void LineFamily::settle(const FamilyMember&, const SteadySine& sine, double phase,
                         std::span<double> state) const {
-  state[0] = sine.remembered_square(phase, line_.period());
+  state[0] = sine.follower(phase, line_.frequency);
 }
 
 void LineFamily::flow(const DamperInput& input, std::span<const double> state,
                       std::span<double> rates) const noexcept {
-  rates[0] = (input.velocity * input.velocity - state[0]) / line_.period();
+  rates[0] = line_.frequency * (input.velocity - state[0]);
 }
 
 double LineFamily::force(const FamilyMember& member, const DamperInput& input,

@@ -9,14 +9,15 @@
 
 namespace dashpot {
 
-constexpr std::string_view kLineFamily = "line";  ///< its kind in a model file
+constexpr std::string_view kLineFamily = "ellipses";  ///< its kind in a model file
 
 /// The simplest family: each damper turns its force with the motion, in a size and by a phase that
 /// are lines in the field, the fluid and the geometry:
-///   F = A (cos p v + sin p w x') / r + F_0,  x' = x - x_0,  q' = (v^2 - q) / t,
-///   r^2 = max(2 q, (v^2 + (w x')^2) / 2) + s^2,
-/// t a period of the fit's motion, so that r is the amplitude of a steady sine's speed, and the
-/// force stays below 1.5 A in any motion. Its size does not follow the speed, as that of a slow
+///   F = A (cos p v + sin p w x') / r + F_0,  x' = x - x_0,  q' = w (v - q),
+///   r^2 = max(2 (q^2 + (v - q)^2), (v^2 + (w x')^2) / 2) + s^2.
+/// In a sine at w, that of the fit's motion, q and v - q are a quarter of a cycle apart and equally
+/// large, so that r is the amplitude of its speed at every instant; and the force stays below 1.5 A
+/// in any motion. Its size does not follow the speed, as that of a slow
 /// damper with a yield stress does not.
 struct FamilyLine {
   static constexpr std::size_t kMostFeatures = 6;
@@ -33,12 +34,11 @@ struct FamilyLine {
   double offset = 0;                               ///< F_0, N
   std::vector<double> size, phase;                 ///< of ln(A / N) and of p: one per feature
 
-  double period() const noexcept;  ///< t, s
   std::size_t feature_count() const noexcept { return by_current ? kMostFeatures : 4; }
-  /// r, m/s, of a motion with the remembered square of its speed.
-  double amplitude(const DamperInput& input, double remembered) const noexcept;
+  /// r, m/s, of a motion whose velocity q follows.
+  double amplitude(const DamperInput& input, double follower) const noexcept;
   /// q after a step.
-  double remember(double before, double from, double to, double dt) const noexcept;
+  double follow(double before, double from, double to, double dt) const noexcept;
   Features features(const FamilyMember& member, double current) const noexcept;
 };
 

@@ -23,19 +23,18 @@ constexpr std::array<PhysicsNumber, kPhysicsNumbers> kTable{{
      kWide, false},
     {"seal_give", "ln of the way over which the seal gives before it slides, over the half stroke",
      -1.2, kFree, -6, 2, false},
+    {"seal_gain", "ln of what a large current multiplies the seal's friction by", 0, 1e-3, 0, 6,
+     false},
+    {"seal_half", "ln of the current at half of that, over the median current", 0, 1e-4, -3, 3,
+     false},
     {"stiffness", "ln of the spring before the flow, over mean force by half stroke", 0, kFree, -3,
      kWide, false},
     {"field_exponent", "power of the yield stress", 1, 1e-2, 0.05, 3, false},
-    {"field_gain", "ln of what a large current adds beyond its yield stress", 0, 1e-3, 0, 6, false},
-    {"field_half", "ln of the current at half of that, over the median current", 0, 1e-4, -3, 3,
-     false},
     {"asymmetry", "share by which the flow resists extension more", 0, 1e-3, -0.5, 0.5, false},
-    {"memory", "share of the motion just past in the speed that sets the resistance", 0.5, kFree, 0,
-     1, false},
+    {"roundness", "share of a sine's mean speed in the speed that sets the resistance", 0.5, kFree,
+     0, 1, false},
     {"onset", "ln of the speed below which resistance is constant, over the mean speed", -2.3,
      kFree, -5, 1, false},
-    {"geometry_share", "power of the plate flow's dependence on geometry: 1 is physics", 1, kFree,
-     0, 1.5, false},
     {"gap_of_all", "power of the gap in the whole force", 0, 0, -kWide, kWide, true},
     {"length_of_all", "power of the pole length in the whole force", 0, 0, -kWide, kWide, true},
     {"fluid_of_all", "power of the viscosity in the whole force", 0, 0, -kWide, kWide, true},
@@ -91,7 +90,7 @@ PhysicsMember drawing_of(const FamilyMember& m) {
   return {m.piston_area, m.gap_area, m.gap, m.pole_length, m.viscosity};
 }
 
-/// One damper, whose yielding force alone goes with the current.
+/// One damper, before its current is known.
 class PhysicsSteps final : public MemberSteps {
  public:
   PhysicsSteps(const FamilyPhysics& physics, const FamilyMember& member)
@@ -103,7 +102,7 @@ class PhysicsSteps final : public MemberSteps {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override {
     FamilyPhysics::Element element = drawn_;
-    element.yielding *= physics_field_at(&field_, yield_.at(to.current), to.current);
+    physics_apply_field(&field_, yield_.at(to.current), to.current, &element);
     physics_advance(&element, from.velocity, to.velocity, dt, state.data());
   }
 
@@ -135,7 +134,7 @@ class SpringInSine {
   bool begin(double phase) {
     constexpr double kForgotten = 1e-4;
     const double turn = kPi * (std::floor(phase / kPi - 0.5) + 0.5);
-    state_ = {0, 0, sine_.remembered_square(turn, element_.time)};
+    state_ = {0, 0, sine_.follower(turn, element_.rate)};
     phase_ = phase;
     return through(turn, phase, state_) < kForgotten;
   }
@@ -148,7 +147,7 @@ class SpringInSine {
     find_cycle(state_, [&](std::span<double> cycled) { cycle(cycled); }, before);
   }
   double force() const { return state_[spring_]; }
-  double remembered() const { return state_[2]; }
+  double follower() const { return state_[2]; }
 
  private:
   static constexpr double kPi = std::numbers::pi;
@@ -231,7 +230,7 @@ void PhysicsFamily::settle(const FamilyMember& member, const SteadySine& sine, d
     if (!forgotten[k]) springs[k].settle(kSettled * whole);
     state[k] = springs[k].force();
   }
-  state[2] = springs[kFlow].remembered();
+  state[2] = springs[kFlow].follower();
 }
 
 double PhysicsFamily::force(const FamilyMember&, const DamperInput&,

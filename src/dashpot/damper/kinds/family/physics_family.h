@@ -11,7 +11,7 @@
 
 namespace dashpot {
 
-constexpr std::string_view kPhysicsFamily = "physics";  ///< its kind in a model file
+constexpr std::string_view kPhysicsFamily = "plate_flow";  ///< its kind in a model file
 
 /// One row of the table of what a fit learns; `numbers` of FamilyPhysics are in its order, that of
 /// PhysicsIndex.
@@ -26,10 +26,13 @@ struct PhysicsNumber {
 /// Plate flow and seal friction, each in series with a spring, times corrections that are positive
 /// and smooth:
 ///   F = g (f_1 + f_2) + F_0,  f_k' = K_k (v - u_k),  f_k = u_k D_k(s_k) / s_k,
-///   s_k^2 = b q + (1 - b) u_k^2 + s_0^2,  q' = (v^2 - q) / t.
-/// D_1 is the seal's force, D_2 the force of the plate flow at a speed s_k. With b = 0 this is
-/// plate flow and friction as they stand in books; with b > 0 a part of the speed that sets the
-/// resistance is that of the motion just past, which rounds the loop. Whatever sets the resistances
+///   s_k^2 = b (p^2 + (v - p)^2) + (1 - b) u_k^2 + s_0^2,  p' = w (v - p).
+/// D_1 is the seal's force, which may grow with the current, D_2 that of the plate flow at a speed
+/// s_k. With b = 0 this is
+/// plate flow and friction as they stand in books. In a sine at w, that of the fit's motion, p and
+/// v - p are a quarter of a cycle apart and equally large: their squares sum to the mean square of
+/// v at every instant, so that b > 0 rounds the loop, and 1 makes it an ellipse. In a motion much
+/// slower or faster the sum goes to v^2, and the loop to that of books. Whatever sets the resistances
 /// D_k / s_k, they are positive, and the springs do not change with the current: over any closed
 /// cycle the damper takes energy out.
 struct FamilyPhysics {
@@ -69,7 +72,7 @@ std::vector<double> run_family_physics(const FamilyPhysics& physics, const Famil
                                        std::span<const DamperInput> inputs,
                                        std::span<const double> time);
 
-/// State: the seal's force and that of the flow, N, and the remembered square of the speed.
+/// State: the seal's force and that of the flow, N, and what follows the velocity, m/s.
 constexpr std::size_t kPhysicsStates = 3;
 
 class PhysicsFamily final : public FamilyForce {

@@ -66,7 +66,7 @@ std::array<FamilyPreset, 6> make_presets() {
       {.name = "family_line",
        .title = "The simplest family: a size and a phase that are lines",
        .equation = "F = A (cos p v + sin p w x') / r + F_0,  x' = x - x_0,\n"
-                   "r^2 = max(2 q, (v^2 + (w x')^2) / 2) + s^2,  q' = (v^2 - q) / t,\n"
+                   "r^2 = max(2 (q^2 + (v - q)^2), (v^2 + (w x')^2) / 2) + s^2,  q' = w (v - q),\n"
                    "ln A and p: a line in i, i^2, ln eta, ln L, ln h, or in T_y, ln L, ln h",
        .source = "Dashpot's own: the blind row that every other family has to beat",
        .remarks =
@@ -79,19 +79,20 @@ std::array<FamilyPreset, 6> make_presets() {
 
       {.name = "family_physics",
        .title = "Plate flow with learnt corrections, one sensor",
-       .equation = "F = g (f_1 + f_2) + F_0,  f_k' = K_k (v - u_k),  f_k = u_k D_k(s_k) / s_k\n"
-                   "s_k^2 = b q + (1 - b) u_k^2 + s_0^2,  q' = (v^2 - q) / t\n"
-                   "D_1 = F_seal,  D_2 = plate flow of c_N N s, c_Y Y (1 +- a),  N = 12 eta L "
-                   "A_p^2 h / (A_g "
-                   "h^3),  Y = 2 T L A_p / h",
+       .equation =
+           "F = g (f_1 + f_2) + F_0,  f_k' = K_k (v - u_k),  f_k = u_k D_k(s_k) / s_k\n"
+           "s_k^2 = b (p^2 + (v - p)^2) + (1 - b) u_k^2 + s_0^2,  p' = w (v - p)\n"
+           "D_1 = F_seal e^(c i / (i + i_h)),  D_2 = plate flow of c_N N s, c_Y Y (1 +- a)\n"
+           "N = 12 eta L A_p^2 h / (A_g h^3),  Y = 2 T L A_p / h",
        .source = "Dashpot's own; plate flow as Phillips 1969, resistances that cannot generate "
                  "energy in series with springs",
        .remarks =
            "Seal friction and plate flow, each in series with a spring: whatever sets their "
-           "resistances, they take energy out. The field enters by the yield stress of the "
-           "conditions and, by a share that is learnt, by the current over the currents of the "
-           "fit, so that the coil does not matter; the force grows with both. Every number has a "
-           "value that it shrinks to, that of physics where there is one; how much is chosen by "
+           "resistances, they take energy out. The flow's field is the yield stress of the "
+           "conditions; the seal's friction may grow with the current over the currents of the "
+           "fit, so that the coil does not matter. Geometry acts on the flow as physics has it, "
+           "times powers of gap, length, area and viscosity. Every number has a value that it "
+           "shrinks to, that of physics where there is one; how much is chosen by "
            "leaving designs out of the training.",
        .form = FamilyForm::Physics},
   }};

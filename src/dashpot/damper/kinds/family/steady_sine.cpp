@@ -10,10 +10,9 @@ DamperInput SteadySine::at(double phase) const noexcept {
   return {amplitude * std::sin(phase), speed() * std::cos(phase), current};
 }
 
-double SteadySine::remembered_square(double phase, double time) const noexcept {
-  const double late = 2 * rate * time;
-  return 0.5 * speed() * speed() *
-         (1 + (std::cos(2 * phase) + late * std::sin(2 * phase)) / (1 + late * late));
+double SteadySine::follower(double phase, double follower_rate) const noexcept {
+  const double late = rate / follower_rate;
+  return speed() * (std::cos(phase) + late * std::sin(phase)) / (1 + late * late);
 }
 
 void find_cycle(std::span<double> state, const std::function<void(std::span<double>)>& cycle,

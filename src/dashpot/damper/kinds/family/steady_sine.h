@@ -11,8 +11,8 @@ struct SteadySine {
   double amplitude = 0, rate = 0, current = 0;  ///< m, rad/s (above 0), A
   DamperInput at(double phase) const noexcept;
   double speed() const noexcept { return amplitude * rate; }
-  /// q of q' = (v^2 - q) / time there.
-  double remembered_square(double phase, double time) const noexcept;
+  /// p of p' = follower_rate (v - p) there, m/s.
+  double follower(double phase, double follower_rate) const noexcept;
 };
 
 /// Moves a state to one that a cycle brings back. A cycle may take long to forget where it began,
