@@ -77,6 +77,7 @@ const FuzzTarget targets[] = {
     {"hdf5", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.h5", input)); }},
     {"tdms", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.tdms", input)); }},
     {"xlsx", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.xlsx", input)); }},
+    {"lvm", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.lvm", input)); }},
     {"xlsx_sheet", xlsx_sheet},
     {"daq_text", daq_text},
     {"dataset_file", dataset_file},

@@ -13,6 +13,7 @@
 #include "export/example_models.h"
 #include "fuzz.h"
 #include "record/readers/example_hdf5.h"
+#include "record/readers/example_lvm.h"
 #include "record/readers/example_mdf4.h"
 #include "record/readers/example_tdms.h"
 #include "record/readers/example_workbook.h"
@@ -164,6 +165,8 @@ void write_seeds(const fs::path& folder) {
   write_file(folder / "tdms/daqmx", example_tdms_daqmx());
   write_file(folder / "xlsx/run", example_recording_workbook());
   write_file(folder / "xlsx_sheet/rows", xlsx_rows_seed());
+  for (const char* x_columns : {"One", "Multi", "No"})
+    write_file(folder / "lvm" / x_columns, example_lvm(x_columns));
   write_file(folder / "daq_text/log", daq_seed());
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);

@@ -1,7 +1,6 @@
 #include "dashpot/record/readers/daq_text.h"
 
 #include <cmath>
-#include <limits>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -60,31 +59,13 @@ Header read_header(LineSource& source, const std::string& file) {
   return header;
 }
 
-RawTable begin_part(const Header& header, const std::string& file, std::size_t index,
-                    std::size_t line) {
+RawTable begin_part(const Header& header, const std::string& file, std::size_t index) {
   RawTable table;
   table.file = file;
   table.part_index = index;
   table.sample_time = header.sample_time;
-  table.lines = {{0, line}};
   for (const std::string& name : header.names) table.columns.push_back({name, "", {}, {}});
   return table;
-}
-
-/// Appends a sample; notes its line where the numbering of rows and lines parts.
-void append_row(RawTable& part, const std::vector<std::string_view>& cells, std::size_t line) {
-  const std::size_t row = part.rows();
-  if (part.lines.back().second + row - part.lines.back().first != line)
-    part.lines.emplace_back(row, line);
-
-  for (std::size_t k = 0; k < part.columns.size(); ++k) {
-    const std::string_view cell = k < cells.size() ? cells[k] : std::string_view();
-    const auto value = parse_number(cell);
-    const bool good = value && std::isfinite(*value);
-    RawColumn& column = part.columns[k];
-    if (!good && !column.bad) column.bad = BadCell{row, std::string(cell.substr(0, 40))};
-    column.values.push_back(good ? *value : std::numeric_limits<double>::quiet_NaN());
-  }
 }
 
 /// Names parts by number and rows, counted through the whole file from 1.
@@ -116,9 +97,8 @@ std::vector<RawTable> read_daq_text(const fs::path& path) {
     if (trim(*line).empty()) continue;
     split_cells(*line, ',', cells);
     const bool resumes = cells.size() > header.names.size() && lower(cells.back()) == "daq resume";
-    if (parts.empty() || resumes)
-      parts.push_back(begin_part(header, file, parts.size(), source.line()));
-    append_row(parts.back(), cells, source.line());
+    if (parts.empty() || resumes) parts.push_back(begin_part(header, file, parts.size()));
+    parts.back().append_row(cells, source.line());
     ++rows;
   }
 

@@ -8,6 +8,7 @@
 #include "dashpot/record/readers/daq_text.h"
 #include "dashpot/record/readers/family_json.h"
 #include "dashpot/record/readers/hdf5.h"
+#include "dashpot/record/readers/lvm.h"
 #include "dashpot/record/readers/mat.h"
 #include "dashpot/record/readers/mdf4.h"
 #include "dashpot/record/readers/tdms.h"
@@ -27,6 +28,7 @@ constexpr Reader kReaders[] = {
     {"XLSX", ".xlsx .xlsm", is_xlsx, read_xlsx},
     {"family JSON", ".json of dampers and levels, or with its inp_*.json", is_family_json,
      read_family_json},
+    {"LVM", ".lvm", is_lvm, read_lvm},
     {"DAQ text log", ".txt", is_daq_text, read_daq_text},
     {"CSV", ".csv .txt .tsv .dat .asc", is_csv, read_csv},
 };

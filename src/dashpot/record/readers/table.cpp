@@ -1,6 +1,8 @@
 #include "dashpot/record/readers/table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "dashpot/base/text.h"
 
@@ -9,6 +11,21 @@ namespace dashpot {
 bool RawTable::named() const {
   return std::any_of(columns.begin(), columns.end(),
                      [](const RawColumn& c) { return !c.name.empty(); });
+}
+
+void RawTable::append_row(std::span<const std::string_view> cells, std::size_t line, char decimal) {
+  const std::size_t row = rows();
+  if (lines.empty() || lines.back().second + row - lines.back().first != line)
+    lines.emplace_back(row, line);
+
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const std::string_view cell = k < cells.size() ? cells[k] : std::string_view();
+    const auto value = parse_number(cell, decimal);
+    const bool good = value && std::isfinite(*value);
+    RawColumn& column = columns[k];
+    if (!good && !column.bad) column.bad = BadCell{row, std::string(cell.substr(0, 40))};
+    column.values.push_back(good ? *value : std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 std::string RawTable::place() const { return part.empty() ? file : file + ", " + part; }

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,6 +49,10 @@ struct RawTable {
   /// Pairs of row and line where the numbering jumps.
   std::vector<std::pair<std::size_t, std::size_t>> lines;
   std::vector<std::string> notes;
+
+  /// Appends a sample; notes its line where the numbering of rows and lines parts. Cells that are
+  /// missing or no finite numbers become NaN.
+  void append_row(std::span<const std::string_view> cells, std::size_t line, char decimal = '.');
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
   bool named() const;                           ///< some column has a name
