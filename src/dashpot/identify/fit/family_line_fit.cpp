@@ -52,7 +52,7 @@ Ellipse ellipse_of(const FamilyLine& line, const FamilyRecord& record) {
     const DamperInput& input = record.inputs[k];
     if (k > 0)
       follower = line.follow(follower, record.inputs[k - 1].velocity, input.velocity,
-                                 record.time[k] - record.time[k - 1]);
+                             record.time[k] - record.time[k - 1]);
     if (k < record.first) continue;
     const double r = line.amplitude(input, follower);
     const std::array<double, 3> term{input.velocity / r,

@@ -37,8 +37,8 @@ LineFamily::LineFamily(FamilyLine line, const std::string& where) : line_(std::m
 double FamilyLine::amplitude(const DamperInput& input, double follower) const noexcept {
   const double v = input.velocity, u = frequency * (input.displacement - centre);
   const double ahead = v - follower;
-  return std::sqrt(
-      std::max(2 * (follower * follower + ahead * ahead), 0.5 * (v * v + u * u)) + slow * slow);
+  return std::sqrt(std::max(2 * (follower * follower + ahead * ahead), 0.5 * (v * v + u * u)) +
+                   slow * slow);
 }
 
 double FamilyLine::follow(double before, double from, double to, double dt) const noexcept {

@@ -32,9 +32,9 @@ struct PhysicsNumber {
 /// plate flow and friction as they stand in books. In a sine at w, that of the fit's motion, p and
 /// v - p are a quarter of a cycle apart and equally large: their squares sum to the mean square of
 /// v at every instant, so that b > 0 rounds the loop, and 1 makes it an ellipse. In a motion much
-/// slower or faster the sum goes to v^2, and the loop to that of books. Whatever sets the resistances
-/// D_k / s_k, they are positive, and the springs do not change with the current: over any closed
-/// cycle the damper takes energy out.
+/// slower or faster the sum goes to v^2, and the loop to that of books. Whatever sets the
+/// resistances D_k / s_k, they are positive, and the springs do not change with the current: over
+/// any closed cycle the damper takes energy out.
 struct FamilyPhysics {
   using Numbers = std::array<double, kPhysicsNumbers>;
 
