@@ -175,6 +175,10 @@ DASHPOT_API size_t dashpot_recordings_count(const dashpot_recordings* recordings
 /// A text for people that says how every column was understood.
 DASHPOT_API dashpot_status dashpot_recordings_describe(const dashpot_recordings* recordings,
                                                        char** text);
+/// The files of a folder that are recordings by their format and could not be used, as a JSON array
+/// of {"file", "why"}: results are those of the others.
+DASHPOT_API dashpot_status dashpot_recordings_unread(const dashpot_recordings* recordings,
+                                                     char** json);
 
 typedef struct dashpot_record_info {
   const char* name;  ///< as `condition`: valid until the recordings change or are freed

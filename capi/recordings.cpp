@@ -9,6 +9,7 @@
 #include "dashpot/record/conditions.h"
 #include "dashpot/record/drive_levels.h"
 #include "dashpot/record/stretches.h"
+#include "dashpot/value.h"
 #include "handles.h"
 #include "status.h"
 #include "words.h"
@@ -177,6 +178,18 @@ dashpot_status dashpot_recordings_describe(const dashpot_recordings* recordings,
     require(text, "text");
     *text = nullptr;
     *text = copy_text(describe(usable_dataset(recordings)));
+  });
+}
+
+dashpot_status dashpot_recordings_unread(const dashpot_recordings* recordings, char** json) {
+  return guarded([&] {
+    require(json, "json");
+    *json = nullptr;
+    require(recordings, "recordings");
+    Value files = Value::array();
+    for (const PassedOver& file : recordings->dataset.unread)
+      files.push_back(Value::object({{"file", file.file}, {"why", file.why}}));
+    *json = copy_text(format_json(files, false));
   });
 }
 

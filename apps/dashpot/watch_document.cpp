@@ -222,9 +222,32 @@ std::string alarm_text(const Watched& watched, const WatchedQuantity& q) {
                      watched.days[*q.chart.alarm].estimate.name);
 }
 
+bool is_judged(const Watched& watched, std::size_t day) {
+  return std::ranges::all_of(watched.quantities,
+                             [day](const auto& q) { return q.chart.points[day].is_judged; });
+}
+
+/// The days that all charts judged, and those behind the reference days that they could not.
+struct JudgedDays {
+  std::size_t judged = 0, unjudged = 0;
+};
+JudgedDays judged_days(const Watched& watched) {
+  JudgedDays days;
+  std::size_t teaching = 0;
+  for (std::size_t d = 0; d < watched.days.size(); ++d) {
+    const DayEstimate& day = watched.days[d].estimate;
+    if (is_judged(watched, d))
+      ++days.judged;
+    else if (day.converged && day.excitation > 0 && ++teaching > watched.options.chart.reference)
+      ++days.unjudged;
+  }
+  return days;
+}
+
 std::string verdict_of(const Watched& watched) {
   const WatchedQuantity* alarm = watched.first_alarm();
   const std::size_t count = days_that_count(watched), reference = watched.options.chart.reference;
+  const auto [judged, unjudged] = judged_days(watched);
   std::string verdict;
   if (alarm)
     verdict = "ALARM: " + alarm_text(watched, *alarm) + '.';
@@ -232,8 +255,15 @@ std::string verdict_of(const Watched& watched) {
     verdict =
         fmt::format("{} of {} reference days are there: nothing is judged yet.", count, reference);
   else
-    verdict = fmt::format("No alarm on {} behind {} reference days.",
-                          counted(count - reference, "day"), reference);
+    verdict =
+        fmt::format("No alarm on {} behind {} reference days.", counted(judged, "day"), reference);
+  if (!alarm && unjudged > 0)
+    verdict += unjudged == 1
+                   ? " One day was not judged: what is known of it had never varied before."
+                   : fmt::format(
+                         " {} days were not judged: what is known of them had never "
+                         "varied before.",
+                         unjudged);
 
   // How often it is wrong, and the days that it knows nothing of.
   verdict += fmt::format(

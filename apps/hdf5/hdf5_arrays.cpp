@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <limits>
 
 #include "dashpot/base/text.h"
 #include "hdf5_guard.h"
@@ -54,8 +55,12 @@ double number_attribute(hid_t object, const char* name, double missing) {
   return value;
 }
 
-/// What the conventions of netCDF keep in fewer bits, as it was measured.
+/// What the conventions of netCDF keep in fewer bits, as it was measured, and what was not measured
+/// as no number.
 void unpack(hid_t dataset, std::vector<double>& values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const char* name : {"_FillValue", "missing_value"})
+    std::ranges::replace(values, number_attribute(dataset, name, kNone), kNone);
   const double scale = number_attribute(dataset, "scale_factor", 1),
                offset = number_attribute(dataset, "add_offset", 0);
   if (scale == 1 && offset == 0) return;

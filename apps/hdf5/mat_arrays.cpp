@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/mat_guard.h"
 #include "hdf5_guard.h"
@@ -84,13 +85,33 @@ std::string unread_class(const matvar_t& variable) {
   }
 }
 
+/// A variable of characters as text, of ASCII alone.
+std::string text_of(const matvar_t& variable) {
+  if (variable.class_type != MAT_C_CHAR || !variable.data) return {};
+  const std::size_t count = variable.rank == 2 ? variable.dims[0] * variable.dims[1] : 0;
+  const std::size_t width = count > 0 ? variable.nbytes / count : 0;
+  std::string text;
+  for (std::size_t k = 0; k < count && (width == 1 || width == 2); ++k) {
+    const auto* bytes = static_cast<const unsigned char*>(variable.data) + k * width;
+    const unsigned code = width == 1 ? bytes[0] : bytes[0] | bytes[1] << 8;
+    if (code >= 0x80) return {};
+    text += static_cast<char>(code);
+  }
+  return text;
+}
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> words) {
+  return std::ranges::find(words, lower(name)) != words.end();
+}
+
 /// Goes through variables, into structures of one element too; names what it passes over.
 class MatWalk {
  public:
   MatWalk(mat_t* file, std::string path, StoredWriter& to)
       : file_(file), path_(std::move(path)), to_(to) {}
 
-  void visit(matvar_t& variable, const std::string& name, int depth) {
+  /// `unit`: of its numbers, where something beside them says so.
+  void visit(matvar_t& variable, const std::string& name, int depth, const std::string& unit = "") {
     // Go into structures of one element; pass over what is no matrix of real numbers.
     const bool is_flat = variable.rank == 2;
     if (variable.class_type == MAT_C_STRUCT && is_flat && variable.dims[0] == 1 &&
@@ -105,16 +126,30 @@ class MatWalk {
     if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
     if (!variable.data) fail(name);
     hand_over_matrix(
-        variable, {.group = {}, .name = name, .unit = {}, .height = rows, .width = columns}, to_);
+        variable, {.group = {}, .name = name, .unit = unit, .height = rows, .width = columns}, to_);
   }
 
  private:
   void visit_fields(matvar_t& variable, const std::string& name, int depth) {
     if (depth == 0 && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
-    char* const* fields = Mat_VarGetStructFieldnames(&variable);
+    char* const* names = Mat_VarGetStructFieldnames(&variable);
+    std::vector<std::pair<std::string_view, matvar_t*>> fields;
     for (unsigned k = 0; k < Mat_VarGetNumberOfFields(&variable); ++k)
       if (matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, k, 0))
-        visit(*field, name + "." + fields[k], depth + 1);
+        fields.emplace_back(names[k], field);
+
+    // A text beside data is their unit.
+    const auto data = std::ranges::find_if(fields, [](const auto& field) {
+      return is_one_of(field.first, {"data", "values", "value"}) && is_numeric(*field.second);
+    });
+    const auto unit = std::ranges::find_if(fields, [](const auto& field) {
+      return is_one_of(field.first, {"unit", "units"}) && !text_of(*field.second).empty();
+    });
+    const bool has_unit = data != fields.end() && unit != fields.end();
+    for (auto field = fields.begin(); field != fields.end(); ++field)
+      if (!has_unit || field != unit)
+        visit(*field->second, name + "." + std::string(field->first), depth + 1,
+              has_unit && field == data ? text_of(*unit->second) : "");
   }
   void pass_over(const std::string& name, const std::string& why) {
     const std::string what = name.empty() ? "a variable" : "variable '" + name + "'";

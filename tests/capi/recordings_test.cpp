@@ -150,6 +150,27 @@ TEST_CASE(
   CHECK(contains(text.handle, "x_mm"));
 }
 
+TEST_CASE("a file of a folder that cannot be read is left out, and told") {
+  const TemporaryFolder folder;
+  std::string good = "t_s,x_mm,F_N,i_A\n";
+  for (int k = 0; k < 200; ++k)
+    good += std::to_string(0.01 * k) + ',' + std::to_string(5 * std::sin(0.1 * k)) + ',' +
+            std::to_string(90 * std::cos(0.1 * k)) + ",1\n";
+  folder.write("data/good.csv", good);
+  folder.write("data/torn.csv", good.substr(0, 1000) + "1.5,,\n" + good.substr(1000));
+  const std::string data = (folder.path() / "data").string();
+  const char* path = data.c_str();
+  Recordings recordings;
+  REQUIRE(dashpot_recordings_load(&path, 1, nullptr, &recordings) == DASHPOT_OK);
+  CHECK(dashpot_recordings_count(recordings) == 1);
+  Text text;
+  REQUIRE(dashpot_recordings_unread(recordings, &text) == DASHPOT_OK);
+  const Value unread = parse_json(text.handle, "unread");
+  REQUIRE(unread.items().size() == 1);
+  CHECK(unread.items()[0].find("file")->as_string() == "torn.csv");
+  CHECK(contains(unread.items()[0].find("why")->as_string(), "torn.csv:"));
+}
+
 TEST_CASE("what a column is by its name") {
   dashpot_column_meaning meaning;
   REQUIRE(dashpot_understand_column("velocity [mm/s]", &meaning) == DASHPOT_OK);

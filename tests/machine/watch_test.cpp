@@ -171,6 +171,22 @@ TEST_CASE("health_chart: a fall is found, dated and measured, and teaches nothin
   CHECK(health_chart(blind, {.reference = 20, .days = 1000}).points.back().scatter > 1.5);
 }
 
+TEST_CASE("health_chart: what is the same on every day explains nothing, and hides no fall") {
+  std::vector<ChartDay> days = chart_days(90, 3, 60, 0.2);
+  const Chart chart = health_chart(days, {.reference = 20, .days = 1000});
+  for (ChartDay& day : days) day.known.push_back(-8.27);
+  const Chart same = health_chart(days, {.reference = 20, .days = 1000});
+  REQUIRE(same.alarm);
+  CHECK(*same.alarm == *chart.alarm);
+  CHECK_CLOSE(same.points[59].score, chart.points[59].score, 1e-9, 1e-9);
+
+  // Of a day on which it differs for the first time nothing is known, and the next are judged.
+  days[40].known.back() = -7;
+  const Chart once = health_chart(days, {.reference = 20, .days = 1000});
+  CHECK_FALSE(once.points[40].is_judged);
+  CHECK(once.points[41].is_judged);
+}
+
 TEST_CASE("a worn damper: what each wear adds, and its rest") {
   const auto as_new = tanh_damper();
   const DamperInput out{0.01, 0.2, 0}, in{0.01, -0.2, 0};

@@ -138,6 +138,16 @@ class Identification(InFolder):
             np.testing.assert_array_equal(model.predict(X[:, 1:], sample_time=0.005), force)
             np.testing.assert_allclose(model.predict(X), force)
 
+    def test_a_file_that_cannot_be_read_is_told(self):
+        (self.folder / "data").mkdir()
+        X, y = recording(0.5)
+        rows = [f"{t},{x},{i},{f}" for (t, x, _, i), f in zip(X, y)]
+        for name, torn in ("good", rows[60]), ("torn", "0.3,0,1,"):
+            lines = ["t_s,x_m,i_A,F_N"] + rows[:60] + [torn] + rows[61:]
+            (self.folder / "data" / f"{name}.csv").write_text("\n".join(lines))
+        with self.assertWarnsRegex(UserWarning, "not read: .*torn.csv:62"):
+            self.assertEqual(len(dashpot.Recordings(self.folder / "data")), 1)
+
     def test_a_gap_in_time_ends_a_recording(self):
         X, y = recording(0.5)
         t, x, v, i = X.T

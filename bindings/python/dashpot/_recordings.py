@@ -1,6 +1,8 @@
 """Recordings of a damper: from files, arrays or DataFrames."""
 
+import json
 import os
+import warnings
 from typing import Iterable, Mapping, Optional, Union
 
 from . import _core, _frames
@@ -17,6 +19,8 @@ class Recordings:
     paths: a file or folder, or several; dataset: a dataset file that states channels, units and conditions;
     recognise: look among the known published recordings; velocity_cutoff: Hz, of the filter that velocity is
     derived with (None: from the motion).
+
+    A file of a folder that cannot be read is left out, with a warning that says why.
     """
 
     def __init__(
@@ -33,6 +37,8 @@ class Recordings:
         several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
         options = {"dataset": os.fspath(dataset), "recognise": recognise, "velocity_cutoff": velocity_cutoff or 0}
         self._core = _core._Recordings.load([os.fspath(path) for path in several], as_json(options))
+        for file in json.loads(self._core.unread()):
+            warnings.warn(f"not read: {file['why']}", stacklevel=2)
 
     def add(
         self,

@@ -303,6 +303,7 @@ PYBIND11_MODULE(_core, module) {
       .def("__len__", &Recordings::count)
       .def("add", &Recordings::add)
       .def("describe", &Recordings::describe)
+      .def("unread", &Recordings::unread)
       .def("record", &Recordings::record);
   py::class_<Ranking>(module, "_Ranking")
       .def("__len__", &Ranking::count)

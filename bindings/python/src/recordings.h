@@ -69,6 +69,12 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
     return text.take();
   }
 
+  std::string unread() const {
+    Text text;
+    check(dashpot_recordings_unread(get(), text.out()));
+    return text.take();
+  }
+
   /// Name, condition, sample time and columns of one: views of the library's memory, which `self`
   /// keeps.
   static py::dict record(const py::object& self, size_t place) {

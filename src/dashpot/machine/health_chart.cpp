@@ -33,13 +33,23 @@ class DaysBefore {
     double degrees = 0;  ///< of freedom; 0: too few days
   };
   Expected of(const ChartDay& day) const {
-    if (count_ <= size_) return {};
+    // What has been the same on all days explains nothing, and of another value nothing is known.
     const std::vector<double> row = row_of(day);
+    std::vector<double> normal = normal_;
+    std::size_t explaining = size_;
+    for (std::size_t k = 0; k < size_; ++k) {
+      if (normal[k * size_ + k] > 0) continue;
+      if (row[k] != 0) return {};
+      normal[k * size_ + k] = 1;
+      --explaining;
+    }
+    if (count_ <= explaining) return {};
+
     std::vector<double> by(size_), reach(size_);
-    if (!solve_positive_definite(normal_, right_, by) ||
-        !solve_positive_definite(normal_, row, reach))
+    if (!solve_positive_definite(normal, right_, by) ||
+        !solve_positive_definite(normal, row, reach))
       return {};
-    Expected expected{.degrees = static_cast<double>(count_ - size_)};
+    Expected expected{.degrees = static_cast<double>(count_ - explaining)};
     double leverage = 1, left = squares_;
     for (std::size_t k = 0; k < size_; ++k) {
       expected.value += by[k] * row[k];

@@ -29,8 +29,10 @@ double cusum_threshold(double allowance, double days);
 /// What a chart is made of: a day's value, and what is known of the day, which may explain it.
 struct ChartDay {
   double value = 0;
-  std::vector<double> known;  ///< as many for each day
-  bool counts = true;         ///< else it neither teaches nor is judged
+  /// As many for each day. One that has been the same on all days before explains nothing; a day on
+  /// which it is another for the first time is not judged, and teaches.
+  std::vector<double> known;
+  bool counts = true;  ///< else it neither teaches nor is judged
 };
 
 struct ChartOptions {

@@ -146,7 +146,11 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
   }
 
   // No time column: the sample time that the format states, then one beside the columns.
-  if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
+  if (!step && (step = table.sample_time)) {
+    basis = "row times the file's sampling interval";
+    require_plausible_step(*step, "the file states steps", table.file,
+                           "state the rate in a dataset file: 'time: {sample_rate: 1000}'");
+  }
   if (!step) step = sample_time_of_scalars(table, basis);
   if (!step)
     throw Error(table.file, "no column is time by its name (it has " + table.column_list() + ")",

@@ -326,6 +326,8 @@ std::string_view si_unit(std::string_view channel) {
 }
 
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit) {
+  // A field "time" of whatever channel's structure.
+  if (lower(trim(column)).ends_with(".time")) return recognise_channel("time", row_unit);
   const std::string whole = as_typed(column), row(row_unit);
   if (is_matrix_column(whole))
     return {{}, {}, "a column of a matrix has no name of its own", false};

@@ -1,5 +1,7 @@
 #include "dashpot/record/readers/hdf5.h"
 
+#include <cmath>
+
 #include <hdf5.h>
 
 #include "arrays_in_process.h"
@@ -41,7 +43,8 @@ TEST_CASE("HDF5: numbers packed with a scale and an offset are unpacked") {
   write_example_hdf5(path, {"a"});
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
               set = H5Dopen2(file, "a/x", H5P_DEFAULT), one = H5Screate(H5S_SCALAR);
-  for (const auto& [name, value] : {std::pair{"scale_factor", 0.5}, {"add_offset", 10.0}}) {
+  for (const auto& [name, value] :
+       {std::pair{"scale_factor", 0.5}, {"add_offset", 10.0}, {"_FillValue", 5.0}}) {
     const hid_t attribute = H5Acreate2(set, name, H5T_NATIVE_DOUBLE, one, H5P_DEFAULT, H5P_DEFAULT);
     H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
     H5Aclose(attribute);
@@ -49,7 +52,10 @@ TEST_CASE("HDF5: numbers packed with a scale and an offset are unpacked") {
   H5Sclose(one), H5Dclose(set), H5Fclose(file);
   const std::vector<RawTable> tables = read_tables(path);
   for (const RawColumn& column : tables.front().columns)
-    if (column.name == "x") CHECK(column.values[3] == 11.5);
+    if (column.name == "x") {
+      CHECK(column.values[3] == 11.5);
+      CHECK(std::isnan(column.values[5]));  // not measured
+    }
 }
 
 TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {

@@ -1,6 +1,7 @@
 #include "dashpot/record/readers/mat.h"
 
 #include <cmath>
+#include <cstring>
 #include <matio.h>
 
 #include <hdf5.h>
@@ -109,6 +110,45 @@ TEST_CASE("fields of a structure are columns") {
     REQUIRE(table.columns.size() == 1);
     CHECK(table.columns[0].name == "test.force");
     CHECK(table.columns[0].values == std::vector<double>{5, 6, 7, 8});
+  }
+}
+
+TEST_CASE("a text beside the data of a structure is their unit, and its time is a time") {
+  const TemporaryFolder folder;
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    CAPTURE(version);
+    const auto path = folder.path() / (std::to_string(version) + ".mat");
+    mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
+    REQUIRE(file);
+    const auto write = [&](const char* name, const char* unit, double size, bool with_time) {
+      std::vector<double> data, time;
+      for (int k = 0; k < 40; ++k) {
+        time.push_back(0.01 * k);
+        data.push_back(size * std::sin(0.3 * k));
+      }
+      const char* fields[] = {"data", "unit", "time"};
+      std::size_t one[] = {1, 1}, many[] = {data.size(), 1}, letters[] = {1, std::strlen(unit)};
+      matvar_t* structure = Mat_VarCreateStruct(name, 2, one, fields, with_time ? 3 : 2);
+      const auto set = [&](const char* field, matio_classes kind, matio_types type,
+                           std::size_t* dims, void* from) {
+        Mat_VarSetStructFieldByName(structure, field, 0,
+                                    Mat_VarCreate(field, kind, type, 2, dims, from, 0));
+      };
+      set("data", MAT_C_DOUBLE, MAT_T_DOUBLE, many, data.data());
+      set("unit", MAT_C_CHAR, MAT_T_UINT8, letters, const_cast<char*>(unit));
+      if (with_time) set("time", MAT_C_DOUBLE, MAT_T_DOUBLE, many, time.data());
+      Mat_VarWrite(file, structure, MAT_COMPRESSION_NONE);
+      Mat_VarFree(structure);
+    };
+    write("displacement", "in", 0.4, true);
+    write("force", "lbf", 200, false);
+    Mat_Close(file);
+
+    const Record record = load_dataset({path}).records.at(0);
+    CHECK(record.sample_time == doctest::Approx(0.01));
+    CHECK(record.find("displacement")->samples.at(1) ==
+          doctest::Approx(0.0254 * 0.4 * std::sin(0.3)));
+    CHECK(record.find("force")->samples.at(1) == doctest::Approx(4.4482216 * 200 * std::sin(0.3)));
   }
 }
 

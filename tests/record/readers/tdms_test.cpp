@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "dashpot/base/random.h"
+#include "dashpot/dataset.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/reader.h"
 #include "example_tdms.h"
@@ -40,6 +41,33 @@ TEST_CASE("TDMS: interleaved or not, both orders of bytes, several chunks hold t
       REQUIRE(tables.size() == 1);
       check_example(tables.front(), 40);
     }
+}
+
+TEST_CASE("TDMS: the unit of X counts, starts of their own are told, and a step that nobody set") {
+  // A segment that sets properties of both channels, of the second one's own too.
+  const auto with = [](const TdmsTexts& texts, const TdmsNumbers& numbers, double start) {
+    TdmsBytes set;
+    set.add<std::uint32_t>(2);
+    for (const char* channel : {"/'run'/'displacement'", "/'run'/'force'"}) {
+      set.text(channel).add<std::uint32_t>(0xFFFFFFFF);
+      TdmsNumbers all = numbers;
+      all.emplace_back("wf_start_time", contains(channel, "force") ? start : 0);
+      add_tdms_properties(set, texts, all);
+    }
+    return example_tdms(false, false) + tdms_segment(kTdmsMetadata, set.bytes, "");
+  };
+  const RawTable table =
+      read_tdms_bytes(with({{"wf_xunit_string", "ms"}}, {{"wf_increment", 2}}, 1)).front();
+  CHECK(table.sample_time == doctest::Approx(2e-3));
+  CHECK(contains(table.notes.at(0), "begin at different times (wf_start_time)"));
+  const RawTable spectrum =
+      read_tdms_bytes(with({{"wf_xunit_string", "Hz"}}, {{"wf_increment", 2}}, 0)).front();
+  CHECK_FALSE(spectrum.sample_time);
+  CHECK(contains(spectrum.notes.at(0), "is in Hz, and not taken as time base"));
+
+  const TemporaryFolder folder;
+  const auto path = folder.write("run.tdms", with({}, {{"wf_increment", 1}}, 0));
+  CHECK(contains(message_of([&] { load_dataset({path}); }), "the file states steps of 1"));
 }
 
 TEST_CASE("TDMS: later segments say what changed, or nothing at all") {

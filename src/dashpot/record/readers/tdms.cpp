@@ -7,6 +7,7 @@
 #include <set>
 
 #include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
 #include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/tdms_scale.h"
@@ -274,22 +275,32 @@ RawColumn finished_column(const Channel& channel, const TdmsScale& scale, std::s
   return column;
 }
 
-/// The time base that waveforms state. Two that differ are none.
+/// The time base that waveforms state. Two that differ are none, and of frequencies there is none.
 void state_sample_time(RawTable& table, const std::vector<Channel>& channels) {
-  std::set<double> steps, offsets;
+  std::set<double> steps, offsets, starts;
   for (const Channel& channel : channels) {
-    const double step = number_of(channel.object->properties, "wf_increment");
-    if (step > 0 && std::isfinite(step)) {
-      steps.insert(step);
-      offsets.insert(number_of(channel.object->properties, "wf_start_offset"));
+    const TdmsProperties& properties = channel.object->properties;
+    const double step = number_of(properties, "wf_increment");
+    if (!(step > 0) || !std::isfinite(step)) continue;
+    const std::string x_unit = text_of(properties, "wf_xunit_string");
+    const auto unit = parse_unit(x_unit.empty() ? "s" : x_unit);
+    if (!unit || unit->dimension != Dimension{0, 0, 1, 0, 0}) {
+      table.notes.push_back("channel '" + channel.name + "': its wf_increment is in " + x_unit +
+                            ", and not taken as time base");
+      continue;
     }
+    steps.insert(step * unit->factor);
+    offsets.insert(number_of(properties, "wf_start_offset"));
+    starts.insert(number_of(properties, "wf_start_time"));
   }
+
   if (steps.size() == 1) table.sample_time = *steps.begin();
   if (steps.size() > 1)
     table.notes.push_back("its channels state different wf_increment: none is taken as time base");
-  if (offsets.size() > 1)
-    table.notes.push_back("its channels begin at different times (wf_start_offset): sample by " +
-                          std::string("sample they may not belong together"));
+  if (offsets.size() > 1 || starts.size() > 1)
+    table.notes.push_back("its channels begin at different times (" +
+                          std::string(offsets.size() > 1 ? "wf_start_offset" : "wf_start_time") +
+                          "): sample by sample they may not belong together");
 }
 
 /// The table of one group; without columns when it has no numbers.
