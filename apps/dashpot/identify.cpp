@@ -54,6 +54,16 @@ void require_bench(const IdentifySettings& asked) {
   refuse(!asked.kit.covariance.empty(), "--covariance");
   refuse(!asked.validate.empty(), "--validate");
   refuse(!asked.ranking.fit.from.empty(), "--from");
+  refuse(asked.ranking.fit.force_offset != FitSettings{}.force_offset, "--force-offset");
+  refuse(asked.ranking.data.load.velocity_cutoff_hz > 0, "--velocity-cutoff");
+  refuse(asked.keep_inertia, "--keep-inertia");
+  const auto useless = [](bool is_stated, const std::string& option, const std::string& right) {
+    if (is_stated) throw UsageError(option, "has no meaning with --in", right);
+  };
+  useless(asked.ranking.results.pdf, "--pdf", "print the page, report.html, from a browser");
+  useless(asked.ranking.fresh, "--fresh", "leave it out: every fit is made anew");
+  useless(!asked.ride.vehicle.plant.empty(), "--plant",
+          "dashpot rank or ride, with the models found");
 }
 
 /// Recordings that no fit sees, refused before the first one where they cannot be used.
