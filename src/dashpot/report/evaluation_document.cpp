@@ -94,13 +94,12 @@ Document evaluation_document(const ReportInput& input) {
   // As text, every record with its errors, and the bands of speed.
   const bool has_offsets = std::ranges::any_of(
       evaluation.records, [](const RecordResult& record) { return record.offset != 0; });
-  DocumentSection errors{
-      .name = "errors",
-      .title = model.name + " in free run, nothing fitted" +
-               (has_offsets ? " but the force zero of each record" : ""),
-      .paragraphs = {},
-      .tables = {error_table(evaluation, to_string(input.dataset.drive_unit))},
-      .audience = Audience::Text};
+  DocumentSection errors{.name = "errors",
+                         .title = model.name + " in free run, nothing fitted" +
+                                  (has_offsets ? " but the force zero of each record" : ""),
+                         .paragraphs = {},
+                         .tables = {error_table(evaluation, to_string(input.dataset.drive_unit))},
+                         .audience = Audience::Text};
   if (evaluation.pooled.samples > 0) errors.tables.push_back(band_table(evaluation));
   if (evaluation.one_step)
     errors.remarks.push_back(
