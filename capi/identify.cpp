@@ -5,6 +5,7 @@
 #include "dashpot/export/js/js.h"
 #include "dashpot/identify/judge/traces.h"
 #include "dashpot/identify/rank/model_choice.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/words.h"
 #include "handles.h"
@@ -220,8 +221,10 @@ dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_record
         evaluate(*model->damper, dataset.records, dataset.drive_unit, asked.options);
 
     // The report comes even where the model diverged, as it says on which recordings.
-    *report = copy_text(json_text(evaluation_json(
-        model->file, evaluation, extrapolations(model->file, dataset), judged.without_inertia)));
+    Value told = evaluation_json(model->file, evaluation, extrapolations(model->file, dataset),
+                                 judged.without_inertia);
+    told.add("records_seen", seen_records(model->file.provenance, dataset));
+    *report = copy_text(json_text(told));
 
     if (evaluation.diverged > 0)
       throw NotUsable(model->name, "diverged on " + std::to_string(evaluation.diverged) + " of " +

@@ -333,15 +333,21 @@ Document observe_document(const ObserveReport& report, const std::vector<PlantRe
                     .units = page_units(settings.units)};
   const std::vector<TruthFigure> truth = compared(report, truths);
 
-  // Each force in one sentence: how sure it is, and where known how wrong.
+  // Each force in one sentence: how sure it is, and where known how wrong; of several recordings
+  // those of the first.
+  const std::size_t others = report.recordings.size() - 1;
+  const std::string of_which =
+      others == 0 ? ""
+                  : " of " + report.recordings.front().name + " (the table has " +
+                        (others == 1 ? "the other one" : std::to_string(others) + " more") + ")";
   for (std::size_t d = 0; d < report.struts.size(); ++d) {
     const ObservedQuantity& force = report.recordings.front().quantities[d];
     const bool is_one = report.struts.size() == 1;
     document.verdict += fmt::format(
-        "{}The force of the {}damper ({}) is estimated with a {} % band of +-{} {}, {}.",
+        "{}The force of the {}damper ({}) is estimated with a {} % band of +-{} {}, {}{}.",
         d > 0 ? " " : "", is_one ? "" : report.struts[d] + " ", dampers[d].model->name(),
         format_number(settings.level, 3), quantity(mean_of(force.half), "N"), unit_name("N"),
-        settings.causal ? "from the past alone" : "from the whole recording");
+        settings.causal ? "from the past alone" : "from the whole recording", of_which);
     for (const TruthFigure& f : truth)
       if (f.quantity == force.name && f.recording == report.recordings.front().name)
         document.verdict += fmt::format(

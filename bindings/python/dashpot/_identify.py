@@ -1,6 +1,7 @@
 """Identification: recordings in, ranked models out."""
 
 import json
+import warnings
 from typing import Callable, Iterable, Optional, Union
 
 from . import _core
@@ -149,4 +150,8 @@ def evaluate(
 ) -> dict:
     """What stands behind DamperModel.evaluate()."""
     options = {"force_offset": force_offset, "threads": threads, "keep_inertia": bool(keep_inertia)}
-    return json.loads(_core.evaluate(model, as_recordings(recordings)._core, as_json(options)))
+    told = json.loads(_core.evaluate(model, as_recordings(recordings)._core, as_json(options)))
+    if told["records_seen"] > 0:
+        seen = f"{told['records_seen']} of {len(told['records'])} records"
+        warnings.warn(f"the fit of the model has seen {seen}: these errors are no judgement", stacklevel=3)
+    return told
