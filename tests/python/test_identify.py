@@ -146,7 +146,11 @@ class Identification(InFolder):
             lines = ["t_s,x_m,i_A,F_N"] + rows[:60] + [torn] + rows[61:]
             (self.folder / "data" / f"{name}.csv").write_text("\n".join(lines))
         with self.assertWarnsRegex(UserWarning, "not read: .*torn.csv:62"):
-            self.assertEqual(len(dashpot.Recordings(self.folder / "data")), 1)
+            recordings = dashpot.Recordings(self.folder / "data")
+        self.assertEqual(len(recordings), 1)
+        model = dashpot.identify(recordings, models=["bingham"], leave_out="blocks=3", starts=1).best
+        with self.assertWarnsRegex(UserWarning, "has seen 1 of 1 records: these errors are no judgement"):
+            self.assertEqual(model.evaluate(recordings)["records_seen"], 1)
 
     def test_a_gap_in_time_ends_a_recording(self):
         X, y = recording(0.5)
