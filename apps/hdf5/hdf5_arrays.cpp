@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <limits>
@@ -104,11 +105,42 @@ struct Walked {
   std::exception_ptr failure;
 };
 
+/// A group, and what its walk needs.
+struct WalkedGroup {
+  Walked& walked;
+  std::string group;
+};
+
+/// An attribute of one number says what a dataset of one number would.
+herr_t hand_over_attribute(hid_t group, const char* name, const H5A_info_t*, void* data) {
+  const WalkedGroup& of = *static_cast<WalkedGroup*>(data);
+  try {
+    const double value = number_attribute(group, name, std::numeric_limits<double>::quiet_NaN());
+    if (!std::isfinite(value)) return 0;
+    StoredArray about;
+    about.group = of.group;
+    about.name = name;
+    of.walked.to.begin_array(about);
+    of.walked.to.add_column(&value, 1, 1);
+    return 0;
+  } catch (...) {
+    of.walked.failure = std::current_exception();
+    return 1;
+  }
+}
+
+herr_t hand_over_attributes(hid_t group, const std::string& name, Walked& walked) {
+  WalkedGroup of{walked, name};
+  return H5Aiterate2(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, hand_over_attribute, &of);
+}
+
 herr_t hand_over_link(hid_t root, const char* path, const H5L_info_t* link, void* data) {
   Walked& walked = *static_cast<Walked*>(data);
   try {
     if (link->type != H5L_TYPE_HARD) return 0;
     const Hdf5Handle object(H5Oopen(root, path, H5P_DEFAULT), H5Oclose);
+    if (object >= 0 && H5Iget_type(object) == H5I_GROUP)
+      return hand_over_attributes(object, path, walked);
     if (object < 0 || H5Iget_type(object) != H5I_DATASET) return 0;
 
     StoredArray about;
@@ -132,7 +164,8 @@ void hand_over_hdf5(const fs::path& path, StoredWriter& to) {
   const Hdf5Handle opened = open_hdf5(path.string());
   check_hdf5(opened, path.string(), fs::file_size(path));
   Walked walked{to, nullptr};
-  H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, hand_over_link, &walked);
+  hand_over_attributes(opened, "", walked);
+  if (!walked.failure) H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, hand_over_link, &walked);
   if (walked.failure) std::rethrow_exception(walked.failure);
 }
 

@@ -1,5 +1,6 @@
 #include "dashpot/record/readers/hdf5.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <hdf5.h>
@@ -56,6 +57,29 @@ TEST_CASE("HDF5: numbers packed with a scale and an offset are unpacked") {
       CHECK(column.values[3] == 11.5);
       CHECK(std::isnan(column.values[5]));  // not measured
     }
+}
+
+TEST_CASE("HDF5: a number that is an attribute of a group is as good as one in a dataset") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "day.h5";
+  write_example_hdf5(path, {"first", "second"});
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), one = H5Screate(H5S_SCALAR);
+  for (const auto& [name, current] : {std::pair{"first", 0.25}, {"second", 1.0}}) {
+    const hid_t group = H5Gopen2(file, name, H5P_DEFAULT);
+    const hid_t attribute =
+        H5Acreate2(group, "current_A", H5T_NATIVE_DOUBLE, one, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(attribute, H5T_NATIVE_DOUBLE, &current);
+    H5Aclose(attribute), H5Gclose(group);
+  }
+  H5Sclose(one), H5Fclose(file);
+  const std::vector<RawTable> tables = read_tables(path);
+  REQUIRE(tables.size() == 2);
+  for (const RawTable& table : tables) {
+    CHECK(table.columns.size() == 4);
+    CHECK(std::ranges::count(table.scalars,
+                             std::pair<std::string, double>(
+                                 "current_A", table.part_name == "first" ? 0.25 : 1.0)) == 1);
+  }
 }
 
 TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
