@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
@@ -62,6 +63,28 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   return ranking;
 }
 
+/// Which numbers of the damper that stands in a family's file are taken, where records state none.
+void say_assumed_damper(const FamilyMember& own, const Dataset& dataset, Console& console) {
+  std::vector<std::string> assumed;
+  std::size_t records = 0;
+  for (const Record& record : dataset.records) {
+    bool lacks = false;
+    for (const MemberField& field : member_fields()) {
+      if (!field.required || find_condition(record.conditions, field.name)) continue;
+      lacks = true;
+      const std::string words = std::string(field.name) + ' ' + format_number(own.*field.field) +
+                                ' ' + std::string(field.unit);
+      if (std::ranges::find(assumed, words) == assumed.end()) assumed.push_back(words);
+    }
+    records += lacks;
+  }
+  if (records > 0)
+    console.note(
+        fmt::format("the damper is not stated in full by {} of {}: taken from the model's "
+                    "file: {}",
+                    records, counted(dataset.records.size(), "record"), join(assumed, ", ")));
+}
+
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
   require_page(settings.report);
   const PrintUnits csv_units = file_units(settings.units);
@@ -73,6 +96,8 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   // The recordings must be driven in the unit that the model takes.
   Dataset dataset = load_recordings(settings.data, console);
   require_same_drive(file, dataset, settings.model);
+  if (const auto* family = model_as<FamilyModel>(*file.model))
+    say_assumed_damper(family->member(), dataset, console);
   const std::size_t changed = settings.keep_inertia ? 0 : take_off_inertia(file, dataset);
   if (changed > 0)
     console.note("the model was fitted to forces without the inertia of " +

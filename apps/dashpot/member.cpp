@@ -11,6 +11,7 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/dataset.h"
 #include "dashpot/identify/fit/family_build.h"
+#include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/model_file.h"
 #include "dashpot/physics/damper_description.h"
 #include "layout.h"
@@ -93,8 +94,12 @@ std::string table_of(const FamilyModel& model, int width) {
 }
 
 /// The member as its recordings say that it was built.
-BuildReport measured(const FamilyModel& member, const MemberSettings& settings, Console& console) {
+BuildReport measured(const FamilyModel& member, const ModelFile& family,
+                     const MemberSettings& settings, Console& console) {
   const Dataset data = load_dataset({settings.recording});
+  for (const std::string& note : data.notes) console.note(note);
+  require_same_drive(family, data, settings.recording);
+  for (const Extrapolation& beyond : extrapolations(family, data)) console.warn(describe(beyond));
   BuildReport report = measure_build(member, data.records, data.drive_unit);
 
   Table table({"this build", ">from its drawing", ">builds differ by", ">known to"});
@@ -151,7 +156,7 @@ int run_member(const MemberSettings& settings, Console& console) {
                               {"outside_family", Value::array(outside)},
                               {"output", settings.output}});
   if (!settings.recording.empty()) {
-    const BuildReport report = measured(*member, settings, console);
+    const BuildReport report = measured(*member, file, settings, console);
     member = report.model;
     Value build = Value::object();
     for (const BuildReport::Deviation& one : report.deviations)

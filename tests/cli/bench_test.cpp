@@ -1,3 +1,4 @@
+#include <cmath>
 #include <fstream>
 
 #include "dashpot/base/file.h"
@@ -177,6 +178,25 @@ TEST_CASE(
                   "/drawings/g14_l6.yaml -o " + (folder.path() / "m.json").string());
   CHECK_MESSAGE(member.exit_code == 0, member.output);
   CHECK(!contains(member.output, "extrapolates"));
+
+  // A short test whose current nobody states makes no member; records without a damper are told.
+  std::string rows = "time [s],displacement [mm],force [N]\n";
+  for (int k = 0; k < 200; ++k)
+    rows += std::to_string(0.01 * k) + ',' + std::to_string(10 * std::sin(0.06 * k)) + ',' +
+            std::to_string(50 * std::cos(0.06 * k)) + '\n';
+  const std::string bare = folder.write("bare.csv", rows).string();
+  const ProgramResult unknown = run_dashpot(
+      "member " + ranked + "/models/family_physics.json --damper " + campaign +
+      "/drawings/g14_l6.yaml --recording " + bare + " -o " + (folder.path() / "b.json").string());
+  CHECK(unknown.exit_code == 1);
+  CHECK(contains(unknown.output, "no drive of the recordings is known"));
+  std::filesystem::copy_file(bare, folder.path() / "bare_1A.csv");
+  const ProgramResult assumed =
+      run_dashpot("evaluate " + ranked + "/models/family_physics.json " +
+                  (folder.path() / "bare_1A.csv").string() + " --force-offset none");
+  CHECK(contains(assumed.output,
+                 "the damper is not stated in full by 1 of 1 record: taken from the model's file: "
+                 "piston_area"));
 
   // The next prototypes are drawings that 'physics' takes, with the manifest of their recordings.
   const std::string next = (folder.path() / "next").string();

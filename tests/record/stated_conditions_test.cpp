@@ -89,6 +89,20 @@ TEST_CASE("columns of a manifest are conditions, by their names with a unit or a
   CHECK_CLOSE(condition(data.records[1], "temperature"), 299.15, 1e-12, 0);
 }
 
+TEST_CASE("a drive level in a manifest is in the unit of its column's name") {
+  for (const auto& [column, statement] :
+       {std::pair<std::string, std::string>{"current [mA]", ""},
+        {"current_mA", ""},
+        {"lev (mA)", "files:\n  - {match: '*.csv', level: {manifest: 'lev (mA)'}}\n"}}) {
+    CAPTURE(column);
+    const TemporaryFolder folder;
+    write_campaign(folder, "file," + column + "\na_0A.csv,150\nb_1A.csv,1500\n", statement);
+    const Dataset data = load_dataset({folder.path()});
+    CHECK_CLOSE(*data.records[0].drive_level, 0.15, 1e-12, 0);
+    CHECK_CLOSE(*data.records[1].drive_level, 1.5, 1e-12, 0);
+  }
+}
+
 TEST_CASE("drawings and columns that cannot be used end the work, with what would be right") {
   const TemporaryFolder folder;
   const auto says = [&](const std::string& manifest, const std::string& statement,

@@ -336,7 +336,7 @@ class Loader {
     if (const auto* level = std::get_if<double>(&statement.level))
       return KnownLevel{*level, unit, stated_in_};
     if (const auto* column = std::get_if<std::string>(&statement.level))
-      return KnownLevel{manifest_.number(file, *column), unit, "manifest, " + *column};
+      return KnownLevel{manifest_.level(file, *column), unit, "manifest, " + *column};
     if (const auto* levels = std::get_if<std::vector<double>>(&statement.level)) {
       if (levels->size() == 1 && listed.stretches)
         return KnownLevel{levels->front(), unit, stated_in_};
@@ -361,7 +361,7 @@ class Loader {
         [](const ChannelStatement& c) { return c.channel == "current" || c.channel == "voltage"; });
     if (drive_stated) return std::nullopt;
     if (const auto column = manifest_.level_column(); column && manifest_.lists(file))
-      return KnownLevel{manifest_.number(file, column->first), column->second,
+      return KnownLevel{manifest_.level(file, column->first), column->second,
                         "manifest.csv, " + column->first};
 
     if (std::optional<KnownLevel> level = level_of_scalars(table)) {

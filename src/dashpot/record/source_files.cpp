@@ -8,6 +8,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
 #include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/csv.h"
@@ -156,6 +157,18 @@ double Manifest::number(const SourcePath& file, const std::string& column) const
     throw Error(path_,
                 "'" + column + "' of " + file.relative + " is '" + *text + "', not a number");
   return *value;
+}
+
+double Manifest::level(const SourcePath& file, const std::string& column) const {
+  // The unit that the column's name holds, whatever else it is called: "lev [mA]".
+  NamedChannel named = recognise_channel(column, "");
+  if (named.channel.empty())
+    if (const std::size_t bracket = column.find_first_of("[("); bracket != std::string::npos)
+      named = recognise_channel("current " + column.substr(bracket), "");
+  if (!named.problem.empty()) throw Error(path_, "column '" + column + "' has " + named.problem);
+  const double value = number(file, column);
+  const auto unit = parse_unit(named.unit);
+  return unit ? unit->factor * value : value;
 }
 
 std::optional<std::pair<std::string, DriveUnit>> Manifest::level_column() const {

@@ -45,6 +45,8 @@ class Manifest {
   std::optional<std::string> cell(const SourcePath& file, const std::string& column) const;
   /// The cell as a number; throws Error naming the manifest when it is none.
   double number(const SourcePath& file, const std::string& column) const;
+  /// The same of a drive level, in A or V by the unit in the column's name.
+  double level(const SourcePath& file, const std::string& column) const;
   /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
   std::optional<std::pair<std::string, DriveUnit>> level_column() const;
   const std::vector<std::string>& columns() const { return names_; }
