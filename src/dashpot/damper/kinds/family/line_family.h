@@ -17,8 +17,8 @@ constexpr std::string_view kLineFamily = "ellipses";  ///< its kind in a model f
 ///   r^2 = max(2 (q^2 + (v - q)^2), (v^2 + (w x')^2) / 2) + s^2.
 /// In a sine at w, that of the fit's motion, q and v - q are a quarter of a cycle apart and equally
 /// large, so that r is the amplitude of its speed at every instant; and the force stays below 1.5 A
-/// in any motion. Its size does not follow the speed, as that of a slow
-/// damper with a yield stress does not.
+/// in any motion. Its size does not follow the speed, as that of a slow damper with a yield stress
+/// does not.
 struct FamilyLine {
   static constexpr std::size_t kMostFeatures = 6;
   using Features = std::array<double, kMostFeatures>;

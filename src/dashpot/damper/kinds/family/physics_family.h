@@ -28,13 +28,12 @@ struct PhysicsNumber {
 ///   F = g (f_1 + f_2) + F_0,  f_k' = K_k (v - u_k),  f_k = u_k D_k(s_k) / s_k,
 ///   s_k^2 = b (p^2 + (v - p)^2) + (1 - b) u_k^2 + s_0^2,  p' = w (v - p).
 /// D_1 is the seal's force, which may grow with the current, D_2 that of the plate flow at a speed
-/// s_k. With b = 0 this is
-/// plate flow and friction as they stand in books. In a sine at w, that of the fit's motion, p and
-/// v - p are a quarter of a cycle apart and equally large: their squares sum to the mean square of
-/// v at every instant, so that b > 0 rounds the loop, and 1 makes it an ellipse. In a motion much
-/// slower or faster the sum goes to v^2, and the loop to that of books. Whatever sets the
-/// resistances D_k / s_k, they are positive, and the springs do not change with the current: over
-/// any closed cycle the damper takes energy out.
+/// s_k. With b = 0 this is plate flow and friction as they stand in books. In a sine at w, that of
+/// the fit's motion, p and v - p are a quarter of a cycle apart and equally large: their squares
+/// sum to the mean square of v at every instant, so that b > 0 rounds the loop, and 1 makes it an
+/// ellipse. In a motion much slower or faster the sum goes to v^2, and the loop to that of books.
+/// Whatever sets the resistances D_k / s_k, they are positive, and the springs do not change with
+/// the current: over any closed cycle the damper takes energy out.
 struct FamilyPhysics {
   using Numbers = std::array<double, kPhysicsNumbers>;
 
