@@ -130,8 +130,8 @@ inline std::string example_tdms_daqmx() {
            {"NI_Scale[1]_Polynomial_Coefficients[1]", 0.5},
            {"NI_Scale[1]_Polynomial_Coefficients[2]", 0.25},
            {"NI_Scale[1]_Polynomial_Input_Source", 0},
-           {"wf_increment", 0.5}});
-  channel("/'daq'/'F'", 5, 2, {}, {{"NI_Number_Of_Scales", 1}, {"wf_increment", 0.5}});
+           {"wf_increment", 0.05}});
+  channel("/'daq'/'F'", 5, 2, {}, {{"NI_Number_Of_Scales", 1}, {"wf_increment", 0.05}});
   TdmsBytes raw;
   for (int k = 0; k < 6; ++k)
     raw.add<std::int16_t>(static_cast<std::int16_t>(k - 2)).add<std::int32_t>(70000 * k);

@@ -103,7 +103,7 @@ TEST_CASE("TDMS: DAQmx rows with a scale of two steps") {
   REQUIRE(table.columns.size() == 2);
   CHECK(table.columns[0].values == std::vector<double>{1, 0.75, 1, 1.75, 3, 4.75});
   CHECK(table.columns[1].values == std::vector<double>{0, 70000, 140000, 210000, 280000, 350000});
-  CHECK(table.sample_time == 0.5);
+  CHECK(table.sample_time == 0.05);
 }
 
 TEST_CASE("TDMS: stamps count in seconds; texts and sensors' scales are passed over by name") {
