@@ -46,10 +46,12 @@ constexpr std::string_view kIdentifyExample =
 
 /// The options that only the fit of a measured force follows.
 void require_bench(const IdentifySettings& asked) {
-  const auto refuse = [](bool is_stated, const std::string& option) {
-    if (is_stated)
-      throw UsageError(option, "has no meaning with --in", "leave it out: no force is measured");
+  const auto refuse = [](bool is_stated, const std::string& option,
+                         const std::string& right = "leave it out: no force is measured") {
+    if (is_stated) throw UsageError(option, "has no meaning with --in", right);
   };
+
+  // What judges a force, or is asked of its recordings.
   refuse(!asked.kit.traces.empty(), "--traces");
   refuse(!asked.kit.covariance.empty(), "--covariance");
   refuse(!asked.validate.empty(), "--validate");
@@ -57,13 +59,12 @@ void require_bench(const IdentifySettings& asked) {
   refuse(asked.ranking.fit.force_offset != FitSettings{}.force_offset, "--force-offset");
   refuse(asked.ranking.data.load.velocity_cutoff_hz > 0, "--velocity-cutoff");
   refuse(asked.keep_inertia, "--keep-inertia");
-  const auto useless = [](bool is_stated, const std::string& option, const std::string& right) {
-    if (is_stated) throw UsageError(option, "has no meaning with --in", right);
-  };
-  useless(asked.ranking.results.pdf, "--pdf", "print the page, report.html, from a browser");
-  useless(asked.ranking.fresh, "--fresh", "leave it out: every fit is made anew");
-  useless(!asked.ride.vehicle.plant.empty(), "--plant",
-          "dashpot rank or ride, with the models found");
+
+  // What comes after a fit, or before it, in another way.
+  refuse(asked.ranking.results.pdf, "--pdf", "print the page, report.html, from a browser");
+  refuse(asked.ranking.fresh, "--fresh", "leave it out: every fit is made anew");
+  refuse(!asked.ride.vehicle.plant.empty(), "--plant",
+         "dashpot rank or ride, with the models found");
 }
 
 /// Recordings that no fit sees, refused before the first one where they cannot be used.

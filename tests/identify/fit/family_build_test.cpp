@@ -1,5 +1,7 @@
 #include "dashpot/identify/fit/family_build.h"
 
+#include <cstdlib>
+
 #include "damper/kinds/family/example_family.h"
 #include "dashpot/identify.h"
 #include "dashpot/rank.h"
@@ -93,10 +95,13 @@ TEST_CASE(
       sums.add(record.sums);
   };
 
-  // Every second geometry is enough.
-  const std::vector<Fold> folds = split(data, parse_leave_out("each=gap,pole_length"));
-  CHECK(folds.size() >= 6);
-  for (std::size_t k = 0; k < folds.size(); k += 2) {
+  // Every second geometry is enough. What docs/family.md tells of all, or of fluids, leaves out
+  // each of what DASHPOT_FAMILY_FOLDS names: gap,pole_length or viscosity.
+  const char* asked = std::getenv("DASHPOT_FAMILY_FOLDS");
+  const std::vector<Fold> folds =
+      split(data, parse_leave_out(std::string("each=") + (asked ? asked : "gap,pole_length")));
+  CHECK(folds.size() >= 2);
+  for (std::size_t k = 0; k < folds.size(); k += asked ? 1 : 2) {
     const Fold& fold = folds[k];
     const std::vector<Record>& left = fold.left_out;
     const FitReport fit = identify("family_physics", every_third(fold.training), DriveUnit::Ampere,
@@ -117,8 +122,11 @@ TEST_CASE(
   MESSAGE("ESR %, from the drawing: "
           << metrics(all_levels).esr << "; of the levels with current: " << metrics(alone).esr
           << ", with the record without it: " << metrics(with_record).esr);
-  CHECK(metrics(all_levels).esr <= 1.75);
-  CHECK(metrics(with_record).esr <= 1);
+  if (!asked) {
+    CHECK(folds.size() >= 6);
+    CHECK(metrics(all_levels).esr <= 1.75);
+    CHECK(metrics(with_record).esr <= 1);
+  }
   CHECK(metrics(with_record).esr < metrics(alone).esr);
 }
 
