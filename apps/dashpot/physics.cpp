@@ -64,6 +64,12 @@ DamperDescription described(const PhysicsSettings& settings) {
     if (equals == std::string::npos)
       throw UsageError("--set", "'" + change + "' has no value; write gap=0.8mm");
     const DescriptionField& field = find_description_field(trim(change.substr(0, equals)), "--set");
+    if (description.steel && (field.field == &DamperDescription::saturation ||
+                              field.field == &DamperDescription::permeability))
+      throw UsageError("--set",
+                       std::string(field.name) + " stands beside the steel " +
+                           description.steel->name + ", which has its own",
+                       "a drawing without 'steel', or another steel: --steel");
     description.*field.field = parse_quantity(trim(std::string_view(change).substr(equals + 1)),
                                               field.unit, "--set " + std::string(field.name));
   }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
 #include "dashpot/dataset.h"
 #include "dashpot/value.h"
@@ -235,6 +236,9 @@ TEST_CASE("bench --family: what cannot be benched is refused" * doctest::test_su
   };
   refused("--family " + good + " --fluid 140CH", "unknown fluid '140CH'");
   refused("--family " + (folder.path() / "bad.yaml").string(), "gap is 0.04 m");
+  folder.write("fluid.yaml", read_file(data_folder("fluids") / "132DG.yaml"));
+  refused("--family " + (folder.path() / "fluid.yaml").string(),
+          "fluid.yaml:1: is a fluid, not a damper description");
   refused("--family " + good + "," + good, "two drawings are called good");
   refused("--family " + good + " --drive PRBS", "stated per record");
   refused("--family " + good + " --damper mr1", "beside a family");

@@ -50,6 +50,10 @@ TEST_CASE("physics: a fluid and a steel of one's own, and overrides that no curr
   const ProgramResult fixed = run_dashpot("physics passenger_car --set yield_stress=20kPa");
   CHECK(fixed.exit_code == 1);
   CHECK(contains(fixed.output, "that no current changes"));
+  const ProgramResult beside =
+      run_dashpot("physics passenger_car --steel 1010 --set saturation=1T");
+  CHECK(beside.exit_code == 2);
+  CHECK(contains(beside.output, "--set: saturation stands beside the steel 1010"));
   CHECK(contains(run_dashpot("physics passenger_car --fluid 122EF").output, "did you mean"));
   CHECK(run_dashpot("physics passenger_car -o x.yaml").exit_code == 2);
 }

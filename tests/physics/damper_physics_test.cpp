@@ -126,6 +126,9 @@ TEST_CASE("what cannot be is refused, with what would be right") {
   CHECK(refusal("steel: \"1010\"\nsaturation: 1 T\n").find("stands beside steel") !=
         std::string::npos);
   CHECK(refusal("steel: \"1010\"\ncircuit: paper\n").find("no B-H curve") != std::string::npos);
+  CHECK(refusal("steel: 1010\n")
+            .find("steel is the number 1010, not a name; quotes around it: "
+                  "steel: \"1010\"") != std::string::npos);
   CHECK(refusal("steel: \"1011\"\n").find("unknown steel") != std::string::npos);
   CHECK(refusal("flow: plates\n").find("did you mean 'plate'") != std::string::npos);
 }
@@ -191,6 +194,10 @@ TEST_CASE("a steel's curve out of order is refused with its place") {
         std::string::npos);
   CHECK(refused("[[0, 0.1], [100, 0.3]]").find("without field") != std::string::npos);
   CHECK(refused("[[0, 0], [100, 0.3, 1]]").find("is no pair") != std::string::npos);
+  // T in front of A/m.
+  CHECK(refused("[[0, 0], [0.2, 238.7], [0.9, 795.8]]")
+            .find("238.7 T at a field of 0.2 A/m, which no material has; pairs of A/m and T") !=
+        std::string::npos);
   for (const std::string& name : steel_names())
     CHECK(format_json(to_json(read_steel(to_json(*find_steel(name))))) ==
           format_json(to_json(*find_steel(name))));

@@ -143,6 +143,9 @@ TEST_CASE("a fluid that cannot be is refused with its line and what would be rig
   says("density: ", "density: 3 #", "density is 3 kg/m^3; 500 to 1e+04 kg/m^3, with its unit");
   says("[[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]",
        "[[0, 0.2], [100 kA/m, 20], [200 kA/m, 35]]", "greatest yield stress is 35 Pa");
+  says("[[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]",
+       "[[0, 0], [2e4, 1e5], [3.5e4, 2e5]]",
+       "the yield stress is 2e+05 Pa at a field of 3.5e+04 A/m, which no MR fluid has");
   says("[20 degC, ", "[20, ", "temperature is 20 K");
   says("measured:", "My Law:", "names no law");
   says("{points: [[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]}",

@@ -34,6 +34,8 @@ const std::vector<FileKind>& file_kinds() {
       {"a dataset file", "", {"files"}, "docs/dataset-files.md"},
       {"a design request", "", {"damper", "vary"}, "docs/design.md"},
       {"a damper description", "", {"gap", "pole_length"}, "docs/physics.md"},
+      {"a fluid", "", {"density", "laws"}, "one like those of data/fluids"},
+      {"a steel", "", {"name", "points"}, "one like those of data/steels"},
       {"the file of a law", "", {"law", "parameters"}, "docs/laws-from-a-file.md"}};
   return kinds;
 }

@@ -111,11 +111,14 @@ std::string_view word_of(const Words& words, Law law) {
   return {};
 }
 
-void require_within(double value, const DescriptionField& field, const std::string& where) {
-  if (value >= field.lower && value <= field.upper) return;
-  const std::string unit = field.unit == "1" ? "" : " " + std::string(field.unit);
-  throw Error(where, std::string(field.name) + " is " + format_number(value) + unit,
-              format_number(field.lower) + " ... " + format_number(field.upper) + unit);
+/// A name, which YAML takes for a number where it is nothing but one.
+const std::string& read_name(const Value& value, const std::string& what) {
+  if (value.kind() == Value::Kind::Number) {
+    const std::string number = format_number(value.as_number());
+    throw Error(value.where(), what + " is the number " + number + ", not a name",
+                "quotes around it: " + what + ": \"" + number + "\"");
+  }
+  return value.as_string();
 }
 
 }  // namespace
@@ -125,6 +128,13 @@ DamperDescription::DamperDescription() : fluid(find_fluid("132DG")) {
 }
 
 std::span<const DescriptionField> description_fields() { return kFields; }
+
+void require_within(double value, const DescriptionField& field, const std::string& where) {
+  if (value >= field.lower && value <= field.upper) return;
+  const std::string unit = field.unit == "1" ? "" : " " + std::string(field.unit);
+  throw Error(where, std::string(field.name) + " is " + format_number(value) + unit,
+              format_number(field.lower) + " ... " + format_number(field.upper) + unit);
+}
 
 double read_field(const Value& value, const DescriptionField& field) {
   const double number = read_quantity(value, field.unit);
@@ -210,12 +220,12 @@ DamperDescription parse_description(std::string_view text, const std::string& so
   if (const Value* fluid = reader.optional("fluid"))
     description.fluid = fluid->kind() == Value::Kind::Object
                             ? std::make_shared<const Fluid>(read_fluid(*fluid))
-                            : find_fluid(fluid->as_string(), fluid->where(), folder);
+                            : find_fluid(read_name(*fluid, "fluid"), fluid->where(), folder);
   const Value* steel = reader.optional("steel");
   if (steel) {
     description.steel = steel->kind() == Value::Kind::Object
                             ? std::make_shared<const Steel>(read_steel(*steel))
-                            : find_steel(steel->as_string(), steel->where(), folder);
+                            : find_steel(read_name(*steel, "steel"), steel->where(), folder);
     for (const std::string_view twice : {"permeability", "saturation"})
       if (const Value* stated = reader.optional(twice))
         throw Error(stated->where(), std::string(twice) + " stands beside steel", "one of the two");

@@ -61,6 +61,8 @@ std::span<const DescriptionField> description_fields();
 /// Reads a number in the field's unit, or with a unit of its own, and checks its bounds. Throws
 /// Error(file:line, ...).
 double read_field(const Value& value, const DescriptionField& field);
+/// Throws Error(where, "gap is 1.2 m", ...) outside the field's bounds.
+void require_within(double value, const DescriptionField& field, const std::string& where);
 /// Throws Error(where, "unknown field ...").
 const DescriptionField& find_description_field(std::string_view name, const std::string& where);
 

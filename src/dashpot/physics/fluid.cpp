@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/data_folder.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -89,6 +90,17 @@ void read_flux_law(const Value& value, FluidLaw& law) {
   reader.finish();
 }
 
+/// Refuses points whose columns are exchanged: dipoles of iron cannot make so steep a curve.
+void require_fields_first(const CurvePoints& points, const Value& at) {
+  constexpr double kSteepest = 1;  // Pa per A/m; MR fluids reach about 0.5
+  const auto& [field, stress] = points.back();
+  if (stress - points.front().second > kSteepest * field)
+    throw Error(at.where(),
+                "the yield stress is " + format_number(stress) + " Pa at a field of " +
+                    format_number(field) + " A/m, which no MR fluid has",
+                "pairs of A/m and Pa, in this order, or with their units");
+}
+
 /// tau over H: c0 to c3 up to a field, or points of A/m and Pa.
 void read_yield(const Value& value, FluidLaw& law) {
   ObjectReader reader(value, "a yield stress over the field");
@@ -100,6 +112,7 @@ void read_yield(const Value& value, FluidLaw& law) {
     law.yield_stresses = read_points(*points, "A/m", "Pa");
     require_rising(law.yield_stresses, *points, "the yield stress", false);
     usual(law.yield_stresses.back().second, kGreatestYield, *points);
+    require_fields_first(law.yield_stresses, *points);
   }
   if (polynomial) {
     const std::vector<double> c = polynomial->as_numbers();
@@ -210,6 +223,7 @@ std::shared_ptr<const Fluid> find_fluid(std::string_view name, const std::string
 }
 
 Fluid read_fluid(const Value& value) {
+  refuse_other_kind(value, "a fluid");
   ObjectReader reader(value, "a fluid");
   Fluid fluid;
   read_words(reader, fluid);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/physics/fluid_curves.h"
 #include "dashpot/physics/flux_curve.h"
@@ -33,6 +34,7 @@ std::shared_ptr<const Steel> find_steel(std::string_view name, const std::string
 }
 
 Steel read_steel(const Value& value) {
+  refuse_other_kind(value, "a steel");
   ObjectReader reader(value, "a steel");
   Steel steel;
   read_words(reader, steel);
