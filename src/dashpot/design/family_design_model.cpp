@@ -227,8 +227,9 @@ class FamilyDesignModel final : public DesignModel {
   }
 
   std::shared_ptr<const FamilyModel> drawn(const DamperDescription& description) const {
-    constexpr std::array<double, 1> kNoCurrent{0};
-    return family_->with_member(member_of(description, kNoCurrent));
+    const std::array<double, 2> currents{0, current_};
+    return family_->with_member(
+        member_of(description, std::span(currents).first(current_ > 0 ? 2 : 1)));
   }
 
   ModelFile file_;

@@ -67,6 +67,16 @@ std::vector<Family::Range> domain_of(const std::vector<FamilyRecord>& records) {
   return domain;
 }
 
+/// Of records, each at one current.
+Family::Range yield_range_of(const std::vector<FamilyRecord>& records) {
+  Family::Range range{nullptr, INFINITY, -INFINITY};
+  for (const FamilyRecord& record : records) {
+    range.min = std::min(range.min, record.member.yield.greatest());
+    range.max = std::max(range.max, record.member.yield.greatest());
+  }
+  return range;
+}
+
 /// The share of the plate flow that leaves the least of the forces.
 FamilyBaseline fitted_baseline(FamilyTarget target, const std::vector<FamilyRecord>& records) {
   constexpr double kOnset = 0.1;  // of the top speed
@@ -259,6 +269,7 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
   Family family;
   family.name = preset.name;
   family.domain = domain_of(records);
+  family.yield = yield_range_of(records);
   family.baseline = fitted_baseline(preset.target, records);
 
   const LearnedForce learned =

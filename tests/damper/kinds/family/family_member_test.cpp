@@ -33,6 +33,17 @@ TEST_CASE("conditions that cannot be are refused in words") {
         std::string::npos);
   CHECK(message_of([] { with_conditions({}, {{"yield_stress", -1}}, "r"); }).find("-1 Pa") !=
         std::string::npos);
+  // Written in mm and mm^2: a drawing may not have them either.
+  CHECK(message_of([] { with_conditions({}, {{"gap", 1.2}}, "r"); }) ==
+        "r: gap is 1.2 m; 5e-05 ... 0.01 m");
+  CHECK(message_of([] {
+          with_conditions({}, {{"piston_area", 160}}, "r");
+        }).find("piston_area is 160 m^2") != std::string::npos);
+  CHECK(message_of([] {
+          FamilyMember member = example_member();
+          member.pole_length = 9;
+          read_member(to_json(member));
+        }).find("pole_length is 9 m") != std::string::npos);
   CHECK(message_of([] {
           require_member({{"gap", 1e-3}}, "run 7");
         }).find("run 7: has no condition") == 0);

@@ -140,3 +140,21 @@ TEST_CASE("any motion of any member gives a finite force, and no memory is asked
     CHECK(finite);
   }
 }
+
+TEST_CASE("a yield stress beyond those of the family is outside of it, as a geometry is") {
+  Family family = family_of(std::make_shared<GatedFamily>(example_gates()));
+  family.yield = Family::Range{nullptr, 1000, 40000};
+  const FamilyModel model(std::make_shared<Family>(family), example_member());
+  REQUIRE(model.extrapolations().size() == 1);
+  CHECK(model.extrapolations()[0] == "yield_stress is 5e+04 Pa, the family has 1000 to 4e+04");
+  CHECK_CLOSE(model.extrapolation(), 10. / 39, 1e-12, 0);
+
+  // One within, one a little above as noise makes it, one below all; a file keeps the range.
+  const auto outside = [&](double stress) {
+    return model.specialised({{"yield_stress", stress}})->extrapolations().size();
+  };
+  CHECK(outside(40000) == 0);
+  CHECK(outside(41000) == 0);
+  CHECK(outside(500) == 1);
+  CHECK(family_model_from_json(model.to_json())->extrapolations() == model.extrapolations());
+}

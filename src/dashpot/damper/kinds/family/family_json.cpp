@@ -10,30 +10,41 @@ namespace {
 
 constexpr std::string_view kMark = "mark", kRefuse = "refuse";
 
-Value domain_json(const std::vector<Family::Range>& domain) {
+Value range_json(const Family::Range& range, std::string_view unit) {
+  return Value::object({{"min", range.min}, {"max", range.max}, {"unit", unit}});
+}
+
+Value domain_json(const Family& family) {
   Value out = Value::object();
-  for (const Family::Range& range : domain)
+  for (const Family::Range& range : family.domain)
     for (const MemberField& field : member_fields())
       if (field.field == range.field)
-        out.add(std::string(field.name),
-                Value::object({{"min", range.min}, {"max", range.max}, {"unit", field.unit}}));
+        out.add(std::string(field.name), range_json(range, field.unit));
+  if (family.yield) out.add(std::string(kYieldStress), range_json(*family.yield, "Pa"));
   return out;
 }
 
-std::vector<Family::Range> read_domain(const Value& value) {
-  std::vector<Family::Range> domain;
+Family::Range read_range(const Value& value, const std::string& name, std::string_view unit) {
+  ObjectReader ends(value, "the domain of " + name);
+  const Family::Range range{nullptr, ends.number("min"), ends.number("max")};
+  if (const std::string stated = ends.string("unit"); stated != unit)
+    throw Error(value.where(), "unit is '" + stated + "'", "write " + std::string(unit));
+  ends.finish();
+  if (!(range.min <= range.max)) throw Error(value.where(), "min is above max");
+  return range;
+}
+
+void read_domain(const Value& value, Family& family) {
   ObjectReader reader(value, "the domain of a family");
   for (const MemberField& field : member_fields()) {
     if (!field.required) continue;
-    ObjectReader ends(reader.required(field.name), "the domain of " + std::string(field.name));
-    domain.push_back({field.field, ends.number("min"), ends.number("max")});
-    if (const std::string unit = ends.string("unit"); unit != field.unit)
-      throw Error(value.where(), "unit is '" + unit + "'", "write " + std::string(field.unit));
-    ends.finish();
-    if (!(domain.back().min <= domain.back().max)) throw Error(value.where(), "min is above max");
+    family.domain.push_back(
+        read_range(reader.required(field.name), std::string(field.name), field.unit));
+    family.domain.back().field = field.field;
   }
+  if (const Value* yield = reader.optional(kYieldStress))
+    family.yield = read_range(*yield, std::string(kYieldStress), "Pa");
   reader.finish();
-  return domain;
 }
 
 std::unique_ptr<FamilyForce> read_network(const Value& value, ObjectReader& reader) {
@@ -111,7 +122,7 @@ Value FamilyModel::to_json() const {
   Value value =
       Value::object({{"name", family_->name},
                      {"member", dashpot::to_json(member_)},
-                     {"domain", domain_json(family_->domain)},
+                     {"domain", domain_json(*family_)},
                      {"outside", family_->outside == OutsideFamily::Mark ? kMark : kRefuse},
                      {"build_spread", family_->build_spread},
                      {"baseline", Value::object({{"target", name_of(baseline.target)},
@@ -128,7 +139,7 @@ std::unique_ptr<FamilyModel> family_model_from_json(const Value& value) {
   auto family = std::make_shared<Family>();
   family->name = reader.string("name");
   FamilyMember member = read_member(reader.required("member"));
-  family->domain = read_domain(reader.required("domain"));
+  read_domain(reader.required("domain"), *family);
   family->outside = read_outside(reader.required("outside"));
   family->build_spread = reader.number("build_spread");
   family->drawing_spread = reader.number("drawing_spread", 0);

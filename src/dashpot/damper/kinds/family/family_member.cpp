@@ -20,9 +20,11 @@ constexpr MemberField kFields[] = {
     {"build", "1", &FamilyMember::build, false}};
 
 void require_value(const MemberField& field, double value, const std::string& where) {
-  if (std::isfinite(value) && (!field.required || value > 0)) return;
-  throw Error(where, std::string(field.name) + " is " + format_number(value),
-              field.required ? "a positive number, " + std::string(field.unit) : "a number");
+  if (!(std::isfinite(value) && (!field.required || value > 0)))
+    throw Error(where, std::string(field.name) + " is " + format_number(value),
+                field.required ? "a positive number, " + std::string(field.unit) : "a number");
+  // What a drawing may not have no damper of a family has: a gap of 1.2 was written in mm.
+  if (field.required) require_within(value, find_description_field(field.name, where), where);
 }
 
 void require_curve(const YieldCurve& yield, const std::string& where) {
@@ -49,6 +51,8 @@ double YieldCurve::at(double current) const noexcept {
   const double share = (i - currents[k - 1]) / (currents[k] - currents[k - 1]);
   return stresses[k - 1] + share * (stresses[k] - stresses[k - 1]);
 }
+
+double YieldCurve::greatest() const noexcept { return *std::ranges::max_element(stresses); }
 
 std::span<const MemberField> member_fields() { return kFields; }
 

@@ -17,6 +17,7 @@ struct YieldCurve {
   std::vector<double> currents;  ///< A, ascending, from 0 on
   std::vector<double> stresses;  ///< Pa
   double at(double current) const noexcept;
+  double greatest() const noexcept;
 };
 
 /// One damper of a family, as the records' conditions state it. SI.

@@ -118,9 +118,24 @@ double Family::Range::excess(double value) const noexcept {
   return std::abs(beyond) <= kRounding * max ? 0 : beyond;
 }
 
+double FamilyModel::yield_excess() const noexcept {
+  // The current's noise makes the largest of a recording larger than that of its yield stress.
+  constexpr double kNoise = 0.05;
+  if (!family_->yield) return 0;
+  const Family::Range& known = *family_->yield;
+  const double greatest = member_.yield.greatest();
+  const bool is_noise = greatest > known.max && greatest <= (1 + kNoise) * known.max;
+  return is_noise ? 0 : known.excess(greatest);
+}
+
 double FamilyModel::extrapolation() const noexcept {
   double most = -1;
   bool any = false;
+  if (const double beyond = yield_excess(); beyond != 0) {
+    const auto& [field, min, max] = *family_->yield;
+    most = std::max(most, beyond / std::max(max > min ? max - min : max, 1.));
+    any = true;
+  }
   for (const Family::Range& range : family_->domain) {
     const double beyond = range.excess(member_.*range.field);
     if (beyond == 0) continue;
@@ -132,15 +147,19 @@ double FamilyModel::extrapolation() const noexcept {
 
 std::vector<std::string> FamilyModel::extrapolations() const {
   std::vector<std::string> outside;
+  const auto add = [&](std::string_view name, std::string_view unit, double value,
+                       const Family::Range& range) {
+    outside.push_back(std::string(name) + " is " + format_number(value) + " " + std::string(unit) +
+                      ", the family has " + format_number(range.min) + " to " +
+                      format_number(range.max));
+  };
   for (const Family::Range& range : family_->domain) {
     const double value = member_.*range.field;
     if (range.excess(value) <= 0) continue;
     for (const MemberField& field : member_fields())
-      if (field.field == range.field)
-        outside.push_back(std::string(field.name) + " is " + format_number(value) + " " +
-                          std::string(field.unit) + ", the family has " + format_number(range.min) +
-                          " to " + format_number(range.max));
+      if (field.field == range.field) add(field.name, field.unit, value, range);
   }
+  if (yield_excess() > 0) add(kYieldStress, "Pa", member_.yield.greatest(), *family_->yield);
   return outside;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct Family {
   double build_spread = 0;
   double drawing_spread = 0;  ///< the same of what it gets wrong, where builds tell it apart
   std::vector<Range> domain;  ///< of the dampers that it was fitted on: each required field
+  /// Pa, of their yield stresses, without a field; none in files of earlier versions.
+  std::optional<Range> yield;
   OutsideFamily outside = OutsideFamily::Mark;
 };
 
@@ -81,6 +84,8 @@ class FamilyModel final : public DamperModel {
  private:
   /// The input with the current that flows in the coil.
   DamperInput in_coil(const DamperInput& input, std::span<const double> state) const noexcept;
+  /// Pa, by which the greatest yield stress lies outside of the family's; as of Range::excess.
+  double yield_excess() const noexcept;
   /// N, of the mean build, before the offset; the input is that of the coil.
   double nominal_force(const DamperInput& input, std::span<const double> state) const noexcept;
 
