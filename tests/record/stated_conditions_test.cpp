@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "dashpot/dataset.h"
 #include "dashpot/physics/damper_physics.h"
@@ -121,6 +122,9 @@ TEST_CASE("drawings and columns that cannot be used end the work, with what woul
   says(listed, entry("conditions: {gap: {manifest: gap, unit: kg}}"), "does not fit gap");
   says(listed, entry("conditions: {gap: {manifest: gap, unit: mm}}"), "is 'wide', not a number");
   says(listed, entry("conditions: {gap: {manifest: gape, unit: mm}}"), "has no 'gape'");
+  says("file,gap\na_0A.csv,1.2\nb_1A.csv,1.2\n",
+       entry("conditions: {gap: {manifest: gap, unit: m}}"),
+       "column 'gap', a_0A.csv: gap is 1.2 m; 5e-05 ... 0.01 m");
   says(listed, entry("damper: {manifest: drawn}"), "none.yaml");
   says(listed, entry("damper: {manifest: drawings}"), "has no 'drawings'");
   says(listed, entry("damper: smal"), "is no drawing");
@@ -128,4 +132,22 @@ TEST_CASE("drawings and columns that cannot be used end the work, with what woul
   says(listed, entry("damper: wrong.yaml"), "dataset.yaml:3");
   folder.write("wrong.yaml", "yield_stress: 20 kPa\n");
   says(listed, entry("damper: wrong.yaml"), "that no current changes");
+}
+
+TEST_CASE("a record's temperature makes its fluid's viscosity, or is said not to count") {
+  const TemporaryFolder folder;
+  write_campaign(folder,
+                 "file,damper,temperature [degC]\na_0A.csv,small.yaml,60\nb_1A.csv,thin.yaml,60\n");
+  folder.write("thin.yaml", "name: thin\nfluid: 132DG\nviscosity_exponent: 0.01\n");
+  const Dataset data = load_dataset({folder.path()});
+  const auto says = [](const Record& record, const char* words) {
+    return std::ranges::any_of(record.notes, [&](const std::string& note) {
+      return note.find(words) != std::string::npos;
+    });
+  };
+  const double at_40 = load_description(folder.path() / "small.yaml").fluid->viscosity(313.15);
+  CHECK(condition(data.records[0], "viscosity") == at_40);
+  CHECK(says(data.records[0], "its temperature does not count"));
+  CHECK_CLOSE(condition(data.records[1], "viscosity"), at_40 * std::exp(-0.01 * 20), 1e-12, 0);
+  CHECK(says(data.records[1], "the viscosity of 132DG is that at 60 degC"));
 }

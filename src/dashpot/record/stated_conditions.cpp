@@ -21,6 +21,7 @@ constexpr ConditionUnit kConditions[] = {
     {"gap_area", "m^2"},  {"gap", "m"},          {"piston_area", "m^2"}, {"pole_length", "m"},
     {"temperature", "K"}, {"viscosity", "Pa*s"}, {"yield_stress", "Pa"}};
 constexpr std::string_view kDrawings = "damper";
+constexpr double kIceInKelvin = 273.15;
 
 /// The unit that a title holds behind a name, as "gap [mm]", "gap (mm)" or "gap_mm".
 std::string unit_behind(std::string_view title, std::string_view name) {
@@ -30,9 +31,11 @@ std::string unit_behind(std::string_view title, std::string_view name) {
   return rest.starts_with('_') ? std::string(trim(std::string_view(rest).substr(1))) : rest;
 }
 
-bool has(const Record& record, std::string_view name) {
-  return std::ranges::find(record.conditions, name, &std::pair<std::string, double>::first) !=
-         record.conditions.end();
+/// Null where it has none of that name.
+const double* find_condition_of(const Record& record, std::string_view name) {
+  const auto at =
+      std::ranges::find(record.conditions, name, &std::pair<std::string, double>::first);
+  return at == record.conditions.end() ? nullptr : &at->second;
 }
 
 }  // namespace
@@ -61,9 +64,13 @@ StatedConditions::StatedConditions(const Manifest& manifest, fs::path folder)
 
 void StatedConditions::add_column(Record& record, const SourcePath& file,
                                   const Column& column) const {
-  if (has(record, column.condition)) return;
-  record.conditions.emplace_back(
-      column.condition, column.factor * manifest_->number(file, column.title) + column.offset);
+  if (find_condition_of(record, column.condition)) return;
+  const double value = column.factor * manifest_->number(file, column.title) + column.offset;
+  if (std::ranges::find(kConditions, column.condition, &ConditionUnit::name) !=
+      std::end(kConditions))
+    require_within(value, find_description_field(column.condition, manifest_->path()),
+                   manifest_->path() + ", column '" + column.title + "', " + file.relative);
+  record.conditions.emplace_back(column.condition, value);
 }
 
 void StatedConditions::add_drawing(Record& record, const std::string& drawing,
@@ -85,10 +92,24 @@ void StatedConditions::add_drawing(Record& record, const std::string& drawing,
       throw Error(where, error.what());  // so that it ends the work, as any wrong statement
     }
   }
-  const DamperDescription& damper = at->second;
+  DamperDescription damper = at->second;
 
-  // Geometry and fluid as drawn; the yield stress at the record's own current.
-  const DamperPhysics physics = evaluate_physics(damper, {});
+  // Geometry and fluid as drawn, at the record's temperature; the yield stress at its own current.
+  DamperPhysics physics = evaluate_physics(damper, {});
+  if (const double* temperature = find_condition_of(record, "temperature");
+      temperature && *temperature != damper.temperature) {
+    const double drawn = physics.viscosity;
+    require_within(*temperature, find_description_field("temperature", where), where);
+    damper.temperature = *temperature;
+    physics = evaluate_physics(damper, {});
+    record.notes.push_back(physics.viscosity == drawn
+                               ? "its temperature does not count: neither " + drawing +
+                                     " nor its fluid " + damper.fluid->name +
+                                     " says how the viscosity follows the temperature"
+                               : "the viscosity of " + damper.fluid->name + " is that at " +
+                                     format_number(*temperature - kIceInKelvin) +
+                                     " degC; its yield stress follows no temperature");
+  }
   std::vector<std::pair<std::string, double>> drawn{{"piston_area", physics.piston_area},
                                                     {"gap_area", physics.gap_area},
                                                     {"gap", damper.gap},
@@ -104,7 +125,7 @@ void StatedConditions::add_drawing(Record& record, const std::string& drawing,
   else
     record.notes.push_back("the current is not constant: no yield stress follows from the drawing");
   for (const auto& [name, value] : drawn)
-    if (!has(record, name)) record.conditions.emplace_back(name, value);
+    if (!find_condition_of(record, name)) record.conditions.emplace_back(name, value);
   record.notes.push_back("damper as drawn in " + drawing);
 }
 
