@@ -20,8 +20,8 @@ namespace dashpot::cli {
 namespace {
 
 struct MemberSettings {
-  std::string model, damper, recording, outside_family = "mark", output;
-  std::vector<std::string> changes;
+  std::string model, damper, outside_family = "mark", output;
+  std::vector<std::string> changes, recordings;
 };
 
 constexpr std::string_view kMemberExample =
@@ -37,13 +37,6 @@ constexpr std::string_view kMemberExample =
     "# A build that was recorded: a few cycles at one current make the rest its own:\n"
     "dashpot member results/models/family_physics.json --damper my_damper.yaml --recording "
     "short_test.csv -o build.json";
-
-/// The drawn damper, whose coil and fluid tell its yield stress at every current.
-DamperDescription description_of(const std::string& damper) {
-  const DamperDescription description = find_description(damper);
-  require_field(description, damper);
-  return description;
-}
 
 Conditions changes_of(const MemberSettings& settings) {
   Conditions conditions;
@@ -73,6 +66,52 @@ Conditions changes_of(const MemberSettings& settings) {
   return conditions;
 }
 
+/// What --set may change of a drawing, from which its areas, its field and its lag follow.
+constexpr std::string_view kDrawn[] = {"gap", "pole_length", "piston_area", "gap_area"};
+
+/// The drawn damper, whose coil and fluid tell its yield stress at every current, with the geometry
+/// of --set: what the drawing computes from that is computed anew.
+DamperDescription description_of(const std::string& damper, const Conditions& changes) {
+  DamperDescription description = find_description(damper);
+  for (const std::string_view name : kDrawn)
+    if (const double* value = find_condition(changes, name))
+      description.*find_description_field(name, "--set").field = *value;
+  if (description.gap_area > 0 && find_condition(changes, "gap") &&
+      !find_condition(changes, "gap_area"))
+    throw UsageError("--set",
+                     "gap is changed, and " + damper + " states the gap_area of its own gap",
+                     "gap_area beside it, or a drawing of that gap");
+  const std::string where = changes.empty() ? damper : damper + " with --set";
+  require_possible(description, where);
+  require_field(description, where);
+  return description;
+}
+
+/// The member that is asked for: of the drawing, or of the family's file, with the numbers of
+/// --set.
+FamilyMember member_asked_for(const MemberSettings& settings, const FamilyMember& of_file,
+                              double largest_current, Console& console) {
+  const Conditions changes = changes_of(settings);
+  if (!settings.damper.empty()) {
+    const DamperDescription description = description_of(settings.damper, changes);
+    if (description.friction > 0 || description.passive_length > 0)
+      console.note(
+          "friction and passive_length of the drawing do not count: a family's model has learnt "
+          "its own from its recordings");
+    return with_conditions(member_of(description, largest_current), changes, "--set");
+  }
+
+  // Without a drawing nothing follows from a number.
+  std::vector<std::string> alone;
+  for (const std::string_view name : kDrawn)
+    if (find_condition(changes, name)) alone.emplace_back(name);
+  if (!alone.empty())
+    console.note("areas and yield stress do not follow " + join(alone, ", ") +
+                 ": what --set does not name stays that of the file's damper; a drawing computes "
+                 "it anew (--damper)");
+  return with_conditions(of_file, changes, "--set");
+}
+
 std::string table_of(const FamilyModel& model, int width) {
   Table table({"number", "unit", ">this damper", ">the family"});
   for (const MemberField& field : member_fields()) {
@@ -88,7 +127,9 @@ std::string table_of(const FamilyModel& model, int width) {
   table.row({std::string(kYieldStress), "Pa",
              format_number(stresses.front()) +
                  (stresses.size() > 1 ? " ... " + format_number(stresses.back()) : ""),
-             ""});
+             model.family().yield ? format_number(model.family().yield->min) + " ... " +
+                                        format_number(model.family().yield->max)
+                                  : ""});
 
   return table.text(static_cast<std::size_t>(width));
 }
@@ -96,9 +137,10 @@ std::string table_of(const FamilyModel& model, int width) {
 /// The member as its recordings say that it was built.
 BuildReport measured(const FamilyModel& member, const ModelFile& family,
                      const MemberSettings& settings, Console& console) {
-  const Dataset data = load_dataset({settings.recording});
+  const Dataset data = load_dataset({settings.recordings.begin(), settings.recordings.end()});
+  const std::string names = join(settings.recordings, ", ");
   for (const std::string& note : data.notes) console.note(note);
-  require_same_drive(family, data, settings.recording);
+  require_same_drive(family, data, names);
   for (const Extrapolation& beyond : extrapolations(family, data)) console.warn(describe(beyond));
   BuildReport report = measure_build(member, data.records, data.drive_unit);
 
@@ -119,13 +161,13 @@ BuildReport measured(const FamilyModel& member, const ModelFile& family,
     console.warn(fmt::format(
         "{}: not one build in a hundred lies so far from its drawing ({} standard deviations): a "
         "recording of another damper, or a drawing that is not this damper's",
-        settings.recording, format_number(std::sqrt(report.distance), 3)));
+        names, format_number(std::sqrt(report.distance), 3)));
   else if (!report.is_told())
     console.warn(fmt::format(
         "{}: what this build leaves is {} times what the family usually leaves of a recording, so "
         "that it says nothing of the build: a recording of another damper, or a drawing that is "
         "not this damper's",
-        settings.recording, format_number(report.left_of_usual, 3)));
+        names, format_number(report.left_of_usual, 3)));
   return report;
 }
 
@@ -136,16 +178,13 @@ int run_member(const MemberSettings& settings, Console& console) {
     throw Error(settings.model, "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");
 
-  // The member is drawn before its numbers are changed, so that --set has the last word.
+  // The member, marked or refused outside of the family.
   const bool refuse = settings.outside_family == "refuse";
   const auto asked = family->with_outside(refuse ? OutsideFamily::Refuse : OutsideFamily::Mark);
   const double largest =
       std::max(std::abs(file.domain.current_min), std::abs(file.domain.current_max));
-  const FamilyMember drawn = settings.damper.empty()
-                                 ? family->member()
-                                 : member_of(description_of(settings.damper), largest);
   std::shared_ptr<const FamilyModel> member =
-      asked->with_member(with_conditions(drawn, changes_of(settings), settings.model));
+      asked->with_member(member_asked_for(settings, family->member(), largest, console));
 
   const std::vector<std::string> outside = member->extrapolations();
   console.print(table_of(*member, console.width()));
@@ -155,7 +194,7 @@ int run_member(const MemberSettings& settings, Console& console) {
   Value json = Value::object({{"member", to_json(member->member())},
                               {"outside_family", Value::array(outside)},
                               {"output", settings.output}});
-  if (!settings.recording.empty()) {
+  if (!settings.recordings.empty()) {
     const BuildReport report = measured(*member, file, settings, console);
     member = report.model;
     Value build = Value::object();
@@ -206,9 +245,9 @@ Command member_command() {
                    .help = "the damper's numbers, as gap=1.25mm,build=1",
                    .value = "LIST"},
                   {.names = "--recording",
-                   .target = &settings->recording,
-                   .help = "a short recording of this build, of family_physics: the member is made "
-                           "what it says, as far as builds differ",
+                   .target = &settings->recordings,
+                   .help = "short recordings of this build, of family_physics: the member is made "
+                           "what they say, as far as builds differ",
                    .value = "FILE",
                    .takes = Takes::File},
 

@@ -28,6 +28,29 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
   CHECK(contains(run_dashpot("member " + family + " --damper family_prototype").output,
                  "yield_stress"));
 
+  // A drawing computes its areas and its field anew; one that states them cannot.
+  const std::string set = " --set gap=1.5mm --json";
+  const auto number = [](const ProgramResult& result, const char* name) {
+    return parse_json(result.output, "stdout").find("member")->find(name)->as_number();
+  };
+  const std::string wide = folder.write("wide.yaml", "fluid: 132DG\ngap: 1.5 mm\n").string(),
+                    narrow = folder.write("narrow.yaml", "fluid: 132DG\ngap: 1 mm\n").string();
+  const ProgramResult drawn =
+                          stdout_of_dashpot("member " + family + " --damper " + wide + " --json"),
+                      changed = stdout_of_dashpot("member " + family + " --damper " + narrow + set);
+  CHECK(number(changed, "gap_area") == number(drawn, "gap_area"));
+  CHECK(drawn.output == changed.output);
+  const std::string stated =
+      folder.write("stated.yaml", "fluid: 132DG\ngap: 1 mm\ngap_area: 100 mm^2\n").string();
+  CHECK(contains(run_dashpot("member " + family + " --damper " + stated + set).output,
+                 "states the gap_area of its own gap"));
+  CHECK(contains(run_dashpot("member " + family + " --damper " + wide).output,
+                 "friction and passive_length of the drawing do not count"));
+  CHECK(contains(run_dashpot("member " + family + set).output,
+                 "areas and yield stress do not follow gap"));
+  CHECK(contains(run_dashpot("member " + family + " --set gap=1.2").output,
+                 "--set: gap is 1.2 m; 5e-05 ... 0.01 m"));
+
   // Only a family that knows how builds differ can take a recording of one.
   const std::string recording =
       folder
@@ -37,4 +60,7 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
                  "0.03,0.0003,0.01,0,5\n")
           .string();
   CHECK(run_dashpot("member " + family + " --recording " + recording).exit_code == 1);
+  CHECK(contains(
+      run_dashpot("member " + family + " --recording none.csv --recording " + recording).output,
+      "none.csv"));
 }
