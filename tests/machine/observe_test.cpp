@@ -121,6 +121,21 @@ TEST_CASE("observe: the force of a damper of another structure, the road not mea
   CHECK(inside > 0.75);
   CHECK(inside < 0.99);
 
+  // A damper that its data had moved less is told where it goes beyond them, an unstated range not.
+  const auto beyond = [](const ObserveReport& report) {
+    return std::ranges::count_if(report.warnings, [](const std::string& warning) {
+      return warning.find("outside the model's range") != std::string::npos;
+    });
+  };
+  CHECK(beyond(smoothed) == 0);
+  for (const auto& [domain, count] : {std::pair{Domain{-0.04, 0.04, -0.05, 0.05, 0, 2}, 1},
+                                      {Domain{0, 0, 0, 0, 0, 2}, 0},
+                                      {Domain{-0.04, 0.04, -1, 1, 0, 0.5}, 1}}) {
+    const ObserveReport told =
+        observe(tanh_of_spencer(), domain, ride.setup, {ride.recorded}, options);
+    CHECK(beyond(told) == count);
+  }
+
   // From the past alone it is known less well, and both beat the model by itself by far.
   options.causal = true;
   const auto [causal_error, causal_inside] = judged(

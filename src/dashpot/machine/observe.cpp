@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/between_samples.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/minimise.h"
@@ -212,6 +214,36 @@ ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers
       },
       search.start(), solver);
   return found.x.empty() || !std::isfinite(found.value) ? search.first() : search.at(found.x).first;
+}
+
+/// Where dampers went, or were driven, beyond what their models were fitted on.
+std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InPlantSetup& setup,
+                                       const std::vector<ObservedSamples>& samples,
+                                       const ObserveReport& report) {
+  constexpr double kSettled = 1;  // s, in which the filter settles
+  const std::size_t count = dampers.size();
+  std::vector<std::string> beyond;
+  for (std::size_t d = 0; d < count; ++d) {
+    std::vector<std::vector<DamperInput>> motions;
+    for (std::size_t r = 0; r < samples.size(); ++r) {
+      const ObservedRecording& told = report.recordings[r];
+      const std::vector<double>&deflection = told.quantities[count + 2 * d].value,
+            &velocity = told.quantities[count + 2 * d + 1].value;
+      const std::size_t first =
+          std::min(samples[r].count / 2, static_cast<std::size_t>(kSettled / told.sample_time));
+      std::vector<DamperInput>& motion = motions.emplace_back();
+      for (std::size_t k = first; k < samples[r].count; ++k)
+        motion.push_back({deflection[k], velocity[k], samples[r].driven_at(k).back()});
+    }
+
+    // A model whose file states no motion, as a published one, has no range of it.
+    const std::string where = count > 1 ? report.struts[d] + ": " : "";
+    for (const Extrapolation& e :
+         extrapolations(*dampers[d].model, dampers[d].domain, setup.drive_unit, motions))
+      if (e.high > e.low || e.quantity == drive_channel(setup.drive_unit))
+        beyond.push_back(where + describe(e));
+  }
+  return beyond;
 }
 
 /// The estimates of a run as quantities with bands.
@@ -424,6 +456,8 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
+  std::ranges::move(beyond_models(dampers, setup, samples, report),
+                    std::back_inserter(report.warnings));
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
     report.warnings.push_back(
         "neither plant nor model says what any sensor's noise is: it was found beside the error of "
