@@ -160,7 +160,7 @@ class Loader {
   void load_file(const SourcePath& file) {
     const std::size_t records = dataset_.records.size(), readings = dataset_.readings.size(),
                       centred = centred_.size(), drives = drive_notes_.size(),
-                      origins = origins_.size();
+                      origins = origins_.size(), passed_over = dataset_.passed_over.size();
     try {
       load_sound_file(file);
     } catch (const Error& error) {
@@ -175,6 +175,7 @@ class Loader {
       dataset_.readings.resize(readings);
       centred_.resize(centred);
       drive_notes_.resize(drives);
+      dataset_.passed_over.resize(passed_over);
       dataset_.unread.push_back({file.relative, why});
     }
   }
@@ -207,19 +208,34 @@ class Loader {
       return pass_over(file, "it holds no table of numbers");
     }
 
+    // Of several parts of a file (sheets, groups) those that are no recordings are passed over.
     const std::size_t parts = tables.size();
-    bool used = false;
-    for (RawTable& table : tables)
-      used = load_stretches(file, *statement,
-                            usable_stretches(std::move(table), *statement, stated_in_), parts) ||
-             used;
+    std::vector<PassedOver> refused;
+    for (RawTable& table : tables) {
+      const std::string part = part_text(table, parts);
+      std::string why = load_stretches(
+          file, *statement, usable_stretches(std::move(table), *statement, stated_in_), parts);
+      if (!why.empty()) refused.push_back({part, std::move(why)});
+    }
+    const bool used = refused.size() < parts;
+    if (!used && !refused.empty() && (file.named || stated))
+      throw Error(file.path.string() + refused.front().file, refused.front().why);
+    for (const auto& [part, why] : refused)
+      dataset_.passed_over.push_back({file.relative + part, why});
     if (used) dataset_.files.push_back({file.path.string(), sha256_of_file(file.path)});
   }
 
-  /// Makes a record of each stretch of one table, which is one in a table whose time has no gap;
-  /// false when the table was passed over.
-  bool load_stretches(const SourcePath& file, const FileStatement& statement,
-                      std::vector<RawTable> stretches, std::size_t parts) {
+  /// What tells a part of a file from the others, behind the file's name: ", sheet 'notes'".
+  static std::string part_text(const RawTable& table, std::size_t parts) {
+    if (parts == 1) return {};
+    return ", " +
+           (table.part.empty() ? "part " + std::to_string(table.part_index + 1) : table.part);
+  }
+
+  /// Makes a record of each stretch of one table, which is one in a table whose time has no gap.
+  /// Returns why the table is no recording; "" where it is one.
+  std::string load_stretches(const SourcePath& file, const FileStatement& statement,
+                             std::vector<RawTable> stretches, std::size_t parts) {
     const bool is_split = stretches.size() > 1;
     const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
     const RawTable& first = stretches.front();
@@ -250,12 +266,7 @@ class Loader {
     }
 
     std::vector<BuiltRecord> all = build_records(std::move(stretches), contexts);
-    if (const std::string& refusal = all.front().refusal; !refusal.empty()) {
-      if (file.named || (!stated_in_.empty() && !statement.states_nothing))
-        throw Error(file.path.string(), refusal);
-      pass_over(file, refusal);
-      return false;
-    }
+    if (!all.front().refusal.empty()) return std::move(all.front().refusal);
 
     for (std::size_t k = 0; k < all.size(); ++k) {
       BuiltRecord& built = all[k];
@@ -267,7 +278,7 @@ class Loader {
                                built.readings.end());
       add_records(std::move(built.record), {&file, &statement}, name.rest, is_split);
     }
-    return true;
+    return {};
   }
 
   /// One record, or one per role that the statement gives to a part of it. A stretch of a recording

@@ -122,6 +122,19 @@ TEST_CASE("lines are counted through comments and blank lines") {
   CHECK(table.where(2).find(":7") != std::string::npos);
 }
 
+TEST_CASE("names of the first columns are names, and texts beside a table are passed over") {
+  const RawTable table = read_text("time;x;force\n0;1;2;3;4;begin\n1;2;3;4;5\n2;3;4;5;6\n");
+  CHECK(names(table) == std::vector<std::string>{"time", "x", "force", "", ""});
+  CHECK(table.rows() == 3);
+  REQUIRE(table.notes.size() == 1);
+  CHECK(table.notes[0].find("passed over: 'begin' at ") != std::string::npos);
+
+  // Where commas separate, numbers without a name may be decimals.
+  CHECK(message_of([] {
+          read_text("time,x,force\n0,1,1,5,2,5\n1,2,2,5,3,5\n2,2,3,5,4,5\n");
+        }).find("names for 3 fewer: a comma within the numbers?") != std::string::npos);
+}
+
 TEST_CASE("too many cells and texts without numbers are refused") {
   CHECK(message_of([] {
           read_text("t,x\n0,1\n1,2,3\n2,3\n");

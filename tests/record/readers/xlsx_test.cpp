@@ -133,6 +133,51 @@ TEST_CASE("XLSX: each sheet with a table is a recording; hidden and short ones a
   CHECK(text.find("'setup' passed over") != std::string::npos);
 }
 
+TEST_CASE(
+    "XLSX: a sheet that is no test is passed over beside others, also where the file is named") {
+  std::string test = kNames, notes = row_of({text_cell("shim"), text_cell("count")});
+  for (int k = 0; k < 100; ++k) {
+    test += row_of({number_cell(std::to_string(0.01 * k)),
+                    number_cell(std::to_string(0.01 * std::sin(0.06 * k))),
+                    number_cell(std::to_string(500 * std::cos(0.06 * k)))});
+    notes += row_of({number_cell(std::to_string(k)), number_cell("2")});
+  }
+  const TemporaryFolder folder;
+  const auto path =
+      folder.write("day.xlsx", example_workbook({{"run", test, ""}, {"shims", notes, ""}}));
+  for (const auto& pointed : {path, folder.path()}) {
+    const Dataset dataset = load_dataset({pointed});
+    CHECK(dataset.records.size() == 1);
+    REQUIRE(dataset.passed_over.size() == 1);
+    CHECK(dataset.passed_over[0].file == "day.xlsx, sheet 'shims'");
+    CHECK(dataset.passed_over[0].why.find("no column is displacement") == 0);
+  }
+
+  // None that is a test.
+  folder.write("day.xlsx", example_workbook({{"a", notes, ""}, {"b", notes, ""}}));
+  CHECK(message_of([&] { load_dataset({path}); }).find("day.xlsx, sheet 'a': no column is") !=
+        std::string::npos);
+}
+
+TEST_CASE("XLSX: notes beside the table hide neither its names nor its rows") {
+  const auto cell_h = [](int row, const std::string& value) {
+    return "<c r=\"H" + std::to_string(row) + "\"" + value + "</c>";
+  };
+  const std::string text = " t=\"inlineStr\"><is><t>warm</t></is>", number = "><v>7</v>";
+  const std::string row = number_cell("0") + number_cell("1") + number_cell("2");
+  for (const std::string& note : {text, number}) {
+    const RawTable table =
+        read_rows(kNames + "<row>" + row + cell_h(2, note) + "</row>" + row_of({row}) + "<row>" +
+                  row + cell_h(4, note) + "</row>" + row_of({row}) + row_of({row}));
+    CHECK(table.columns.size() == 3);
+    CHECK(table.columns[0].name == "t");
+    CHECK(table.rows() == 5);
+    REQUIRE(table.notes.size() == 1);
+    CHECK(table.notes[0].find("cells beside the table passed over: '") == 0);
+    CHECK(table.notes[0].find("sheet 'run':2, and in 1 more row") != std::string::npos);
+  }
+}
+
 TEST_CASE("XLSX: what is damaged or no recording is refused with place and reason") {
   const std::string row = row_of({number_cell("0"), number_cell("1"), number_cell("2")});
   CHECK(refusal(kNames + row + "<row r=\"3\"><c r=\"BM3\"><v>1</v></c></row>")

@@ -129,6 +129,15 @@ class RowAppender {
     }
   }
 
+  /// Says what stood beside the table and was not read.
+  void note_beside() {
+    if (noted_ > 0)
+      table_.notes.push_back("cells beside the table passed over: " + first_note_ +
+                             (noted_ > 1 ? ", and in " + std::to_string(noted_ - 1) +
+                                               (noted_ > 2 ? " more rows" : " more row")
+                                         : ""));
+  }
+
   void append(std::string_view text, std::size_t line) {
     if (is_comment(text)) return;
     split_cells(text, dialect_.separator, cells_);
@@ -173,10 +182,16 @@ class RowAppender {
     column.values.push_back(seconds);
   }
 
-  /// Empty cells at the end may be missing or too many (trailing separators); filled ones may not.
+  /// Empty cells at the end may be missing or too many (trailing separators); filled ones may not,
+  /// but for notes beside the table.
   void require_cell_count(std::size_t line) {
     while (cells_.size() > table_.columns.size() && cells_.back().empty()) cells_.pop_back();
     const std::size_t expected = table_.columns.size();
+    if (cells_.size() > expected && are_beside(std::span(cells_).subspan(expected), dialect_)) {
+      if (noted_++ == 0)
+        first_note_ = "'" + std::string(cells_.back()) + "' at " + table_.at_line(line);
+      cells_.resize(expected);
+    }
     if (cells_.size() > expected)
       throw Error(table_.at_line(line),
                   "has " + std::to_string(cells_.size()) + " cells, the table has " +
@@ -194,7 +209,8 @@ class RowAppender {
   RawTable& table_;
   const CsvDialect& dialect_;
   std::vector<std::string_view> cells_;
-  std::size_t next_line_ = 0, given_ = 0, missing_ = 0;
+  std::size_t next_line_ = 0, given_ = 0, missing_ = 0, noted_ = 0;
+  std::string first_note_;
   std::map<std::size_t, Clock> clocks_;  ///< by column
 };
 
@@ -215,15 +231,20 @@ void drop_empty_columns(RawTable& table) {
   while (table.columns.size() > 1 && empty(table.columns.back())) table.columns.pop_back();
 }
 
-/// A comma that separates columns and stands within numbers as well moves every later column by
-/// one: the lines then hold one number more than there are names.
+/// A comma that separates columns and stands within numbers as well moves the later columns: the
+/// lines then hold more numbers than there are names.
 void refuse_moved_columns(const RawTable& table, const CsvDialect& dialect) {
   const RawColumn& last = table.columns.back();
   if (dialect.separator != ',' || !table.named() || !last.name.empty() || last.values.empty())
     return;
+  const auto nameless = std::ranges::find_if(table.columns.rbegin(), table.columns.rend(),
+                                             [](const auto& c) { return !c.name.empty(); }) -
+                        table.columns.rbegin();
   throw Error(table.at_line(table.lines.empty() ? 1 : table.lines[0].second),
               "its lines hold " + std::to_string(table.columns.size()) +
-                  " numbers, and there are names for one fewer: a comma within the numbers?",
+                  " numbers, and there are names for " +
+                  (nameless == 1 ? "one" : std::to_string(nameless)) +
+                  " fewer: a comma within the numbers?",
               "separate the columns by semicolons or tabs, or quote numbers like \"1,093.60\"");
 }
 
@@ -270,6 +291,7 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
     appender.append(head[k], numbers[k]);
   while (const auto line = source.next()) appender.append(*line, source.line());
   appender.settle_clocks();
+  appender.note_beside();
 
   drop_empty_columns(table);
   refuse_moved_columns(table, dialect);

@@ -104,9 +104,18 @@ Guess try_dialect(const std::vector<std::string>& lines, char separator, char de
   for (const auto& [count, times] : tally)
     if (times >= guess.data_lines) guess.data_lines = times, guess.columns = count;
 
-  // The table starts with the first line of that width.
-  const auto start = std::find(counts.begin(), counts.end(), guess.columns);
-  guess.dialect.first_data_line = static_cast<std::size_t>(start - counts.begin());
+  // The table starts with the first line of that width, or before it with those that have a note
+  // beside them.
+  auto start = static_cast<std::size_t>(std::find(counts.begin(), counts.end(), guess.columns) -
+                                        counts.begin());
+  while (start > 0 && counts[start - 1] > guess.columns) {
+    split_cells(lines[start - 1], separator, cells);
+    if (!are_beside(std::span(cells).subspan(guess.columns), guess.dialect)) break;
+    cells.resize(guess.columns);
+    if (!holds_numbers(cells, decimal)) break;
+    --start;
+  }
+  guess.dialect.first_data_line = start;
   return guess;
 }
 
@@ -140,6 +149,13 @@ bool is_doubtful_units_row(const Cells& cells, const Cells& above) {
   return known >= 1 && 2 * known >= filled && named >= 2;
 }
 
+/// Two or more cells name channels: a heading, though columns behind them have no name.
+bool names_channels(const Cells& cells) {
+  return std::ranges::count_if(cells, [](std::string_view cell) {
+           return !recognise_channel(cell, "").channel.empty();
+         }) >= 2;
+}
+
 /// The cells of the last line before `before` that can head `columns` columns; its index or npos.
 std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect& dialect,
                         std::size_t before, std::size_t columns, Cells& cells) {
@@ -148,12 +164,15 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
     const std::string_view line = strip_comment(lines[k], dialect.separator);
     if (trim(line).empty()) continue;
     split_cells(line, dialect.separator, cells);
+    if (cells.size() > columns && cells[columns].empty()) cells.resize(columns);
     if (cells.size() > columns && cells.front().empty()) cells.erase(cells.begin());
     Cells filled = cells;
     drop_trailing_empty(filled);
     if (filled.empty()) continue;
-    const bool fits = filled.size() <= columns && filled.size() + 1 >= columns &&
-                      !holds_numbers(cells, dialect.decimal);
+    const bool is_short = filled.size() + 1 < columns;
+    const bool heads =
+        !is_short || (dialect.separator != ' ' && (names_channels(filled) || is_units_row(filled)));
+    const bool fits = filled.size() <= columns && heads && !holds_numbers(cells, dialect.decimal);
     return fits && (columns > 1 || cells.size() == 1) ? k : std::string::npos;
   }
   return std::string::npos;
@@ -256,6 +275,14 @@ bool is_comment(std::string_view line) {
   if (line.starts_with('#') && is_sheet_error(line)) return false;
   return line.empty() || line.front() == '#' || line.front() == '%' || line.front() == '!' ||
          line.substr(0, 2) == "//";
+}
+
+bool are_beside(std::span<const std::string_view> beyond, const CsvDialect& dialect) {
+  if (dialect.separator == ' ') return false;
+  if (dialect.separator == '\t' && !beyond.empty() && beyond.front().empty()) return true;
+  return std::ranges::none_of(beyond, [&](std::string_view cell) {
+    return number_of_cell(cell, dialect.decimal, dialect.thousands).has_value();
+  });
 }
 
 std::optional<double> number_of_cell(std::string_view cell, char decimal, char thousands) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,11 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
 /// The number in a cell. "1.093,60" is one by itself, since it holds both signs; "1.093" is 1093
 /// only where `thousands` says that such groups are used.
 std::optional<double> number_of_cell(std::string_view cell, char decimal, char thousands);
+
+/// Whether the cells of a row beyond the table's columns are notes beside it: texts, or whatever an
+/// empty cell parts from the table where tabs separate, as in a sheet. Elsewhere a number too many
+/// may be a decimal comma.
+bool are_beside(std::span<const std::string_view> beyond, const CsvDialect& dialect);
 
 /// A comment or an empty line holds no sample.
 bool is_comment(std::string_view line);
