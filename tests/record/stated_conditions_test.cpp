@@ -90,6 +90,31 @@ TEST_CASE("columns of a manifest are conditions, by their names with a unit or a
   CHECK_CLOSE(condition(data.records[1], "temperature"), 299.15, 1e-12, 0);
 }
 
+TEST_CASE("a manifest with semicolons and decimal commas; a build; what it states in vain") {
+  const TemporaryFolder folder;
+  write_campaign(folder,
+                 "file;current [A];gap [mm];specimen;operator\na_0A.csv;0,25;1,1;1;Ann\n"
+                 "b_1A.csv;1,5;1,3;2;Bob\nc_2A.csv;2;1,3;2;Bob\n");
+  Dataset data = load_dataset({folder.path()});
+  REQUIRE(data.records.size() == 2);
+  CHECK(*data.records[0].drive_level == 0.25);
+  CHECK_CLOSE(condition(data.records[1], "gap"), 1.3e-3, 1e-12, 0);
+  CHECK(condition(data.records[1], "specimen") == 2);
+  const auto notes = [&](const std::string& words) {
+    return std::ranges::count_if(
+        data.notes, [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  CHECK(notes("manifest.csv names files that are not there: 'c_2A.csv' (line 4)") == 1);
+  CHECK(notes("not used without a dataset file: 'operator'") == 1);
+
+  // Builds by words are said; a file that is named alone asks for no other.
+  write_campaign(folder, "file,specimen\na_0A.csv,left\nb_1A.csv,right\nc_2A.csv,left\n");
+  data = load_dataset({folder.path() / "a_0A.csv"});
+  CHECK(condition(data.records[0], "specimen") == -1);
+  CHECK(notes("'specimen' is not used") == 1);
+  CHECK(notes("not there") == 0);
+}
+
 TEST_CASE("a drive level in a manifest is in the unit of its column's name") {
   for (const auto& [column, statement] :
        {std::pair<std::string, std::string>{"current [mA]", ""},

@@ -116,6 +116,8 @@ class Loader {
     dataset_.notes.insert(dataset_.notes.end(), conditions_.notes().begin(),
                           conditions_.notes().end());
 
+    note_manifest();
+
     // What holds for all records together may be stated once.
     if (drive_unit_ && stated.drive_unit && *drive_unit_ != *stated.drive_unit)
       throw Error(stated.path, "'drive' differs from that of the folders before",
@@ -129,6 +131,31 @@ class Loader {
                                stated.path + " is not used: the folder before states '" +
                                format_leave_out(*dataset_.leave_out) + "'");
     if (!dataset_.leave_out) dataset_.leave_out = stated.leave_out;
+  }
+
+  /// What a manifest states in vain: files that are not there, and columns that nothing uses.
+  void note_manifest() {
+    const bool is_folder = std::ranges::none_of(sources_.files, &SourcePath::named);
+    if (manifest_.empty() || !is_folder) return;
+    const std::string name = fs::path(manifest_.path()).filename().string();
+    constexpr std::size_t kShown = 3;
+    if (std::vector<std::string> missing = manifest_.missing_files(sources_.files);
+        !missing.empty()) {
+      const std::size_t more = missing.size() - std::min(missing.size(), kShown);
+      missing.resize(missing.size() - more);
+      dataset_.notes.push_back(name + " names files that are not there: " + join(missing, ", ") +
+                               (more > 0 ? " and " + std::to_string(more) + " more" : ""));
+    }
+
+    // A dataset file may use columns in many ways; without one there are few.
+    if (!stated_in_.empty()) return;
+    const auto level = manifest_.level_column();
+    std::vector<std::string> unused;
+    for (const std::string& column : manifest_.columns())
+      if (column != "file" && !(level && level->first == column) && !conditions_.knows(column))
+        unused.push_back("'" + column + "'");
+    if (!unused.empty())
+      dataset_.notes.push_back(name + ": not used without a dataset file: " + join(unused, ", "));
   }
 
   /// What needs all records of the folder: levels that only samples tell, then what depends on

@@ -117,11 +117,19 @@ Manifest::Manifest(const fs::path& path) : path_(path.string()) {
   TextTable table = read_text_table(path);
   names_ = std::move(table.names);
   rows_ = std::move(table.rows);
+  lines_ = std::move(table.lines);
+  decimal_ = table.decimal;
   const auto at = std::find(names_.begin(), names_.end(), "file");
   if (at == names_.end())
     throw Error(path_, "has no column 'file'",
                 "its first line names the columns, one of them 'file'");
   file_column_ = static_cast<std::size_t>(at - names_.begin());
+}
+
+std::string Manifest::listed_file(std::size_t row) const {
+  std::string listed = rows_[row][file_column_];
+  std::replace(listed.begin(), listed.end(), '\\', '/');
+  return fs::path(listed).lexically_normal().string();
 }
 
 std::optional<std::size_t> Manifest::row_of(const SourcePath& file) const {
@@ -131,9 +139,7 @@ std::optional<std::size_t> Manifest::row_of(const SourcePath& file) const {
   const std::string name = file.path.filename().string();
   std::optional<std::size_t> by_name;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    std::string listed = rows_[k][file_column_];
-    std::replace(listed.begin(), listed.end(), '\\', '/');
-    listed = fs::path(listed).lexically_normal().string();
+    const std::string listed = listed_file(k);
     if (listed == below || listed == file.relative) return k;
     if (listed == name && !by_name) by_name = k;
   }
@@ -152,11 +158,30 @@ double Manifest::number(const SourcePath& file, const std::string& column) const
   if (!text)
     throw Error(path_, "has no '" + column + "' for " + file.relative,
                 "its columns are " + join(names_, ", "));
-  const auto value = parse_number(*text);
+  const auto value = parse_number(*text, decimal_);
   if (!value)
-    throw Error(path_,
-                "'" + column + "' of " + file.relative + " is '" + *text + "', not a number");
+    throw Error(path_, "'" + column + "' of " + file.relative + " is '" + *text +
+                           "', not a number" +
+                           (decimal_ == ',' ? ": its numbers have decimal commas" : ""));
   return *value;
+}
+
+bool Manifest::holds_numbers(const std::string& column) const {
+  const auto at = static_cast<std::size_t>(std::ranges::find(names_, column) - names_.begin());
+  return std::ranges::all_of(
+      rows_, [&](const auto& row) { return parse_number(row[at], decimal_).has_value(); });
+}
+
+std::vector<std::string> Manifest::missing_files(const std::vector<SourcePath>& files) const {
+  std::set<std::size_t> found;
+  for (const SourcePath& file : files)
+    if (const auto row = row_of(file)) found.insert(*row);
+  std::vector<std::string> missing;
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    if (const std::string listed = listed_file(k); !found.contains(k))
+      if (!fs::exists(fs::path(path_).parent_path() / listed))
+        missing.push_back("'" + listed + "' (line " + std::to_string(lines_[k]) + ")");
+  return missing;
 }
 
 double Manifest::level(const SourcePath& file, const std::string& column) const {

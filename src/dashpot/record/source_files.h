@@ -50,12 +50,20 @@ class Manifest {
   /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
   std::optional<std::pair<std::string, DriveUnit>> level_column() const;
   const std::vector<std::string>& columns() const { return names_; }
+  /// Whether every cell of a column that it has is a number.
+  bool holds_numbers(const std::string& column) const;
+  /// The rows whose file is neither among these nor beside the manifest: "'run7.csv' (line 8)".
+  std::vector<std::string> missing_files(const std::vector<SourcePath>& files) const;
 
  private:
+  std::string listed_file(std::size_t row) const;  ///< its path, with '/' and no "./"
+
   std::string path_;
   std::vector<std::string> names_;
   std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> lines_;  ///< of each row
   std::size_t file_column_ = 0;
+  char decimal_ = '.';
 };
 
 }  // namespace dashpot

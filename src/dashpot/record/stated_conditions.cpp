@@ -17,11 +17,13 @@ struct ConditionUnit {
   std::string_view name, unit;
 };
 /// What columns may be by their names; a longer name before one that begins it.
-constexpr ConditionUnit kConditions[] = {
-    {"gap_area", "m^2"},  {"gap", "m"},          {"piston_area", "m^2"}, {"pole_length", "m"},
-    {"temperature", "K"}, {"viscosity", "Pa*s"}, {"yield_stress", "Pa"}};
+constexpr ConditionUnit kConditions[] = {{"gap_area", "m^2"},         {"gap", "m"},
+                                         {"piston_area", "m^2"},      {"pole_length", "m"},
+                                         {"spring_stiffness", "N/m"}, {"temperature", "K"},
+                                         {"viscosity", "Pa*s"},       {"yield_stress", "Pa"}};
 constexpr std::string_view kDrawings = "damper";
 constexpr double kIceInKelvin = 273.15;
+constexpr std::string_view kBuild = "specimen";  // which build of a drawing: a number
 
 /// The unit that a title holds behind a name, as "gap [mm]", "gap (mm)" or "gap_mm".
 std::string unit_behind(std::string_view title, std::string_view name) {
@@ -43,16 +45,22 @@ const double* find_condition_of(const Record& record, std::string_view name) {
 StatedConditions::StatedConditions(const Manifest& manifest, fs::path folder)
     : manifest_(&manifest), folder_(std::move(folder)) {
   for (const std::string& title : manifest.columns()) {
-    if (title == kDrawings) has_drawings_ = true;
+    if (title == kDrawings) {
+      has_drawings_ = true;
+      known_.insert(title);
+    }
+    if (title == kBuild) add_build_column();
     for (const ConditionUnit& known : kConditions) {
       if (!lower(title).starts_with(known.name)) continue;
       const std::string unit = unit_behind(title, known.name);
       const auto parsed = parse_unit(unit);
       if (unit.empty()) {
+        known_.insert(title);
         notes_.push_back("the manifest's column '" + title +
                          "' has no unit and is not used: name it '" + title + " [" +
                          std::string(known.unit == "m" ? "mm" : known.unit) + "]'");
       } else if (parsed && parsed->dimension == parse_unit(known.unit)->dimension) {
+        known_.insert(title);
         columns_.push_back({title, std::string(known.name), parsed->factor, parsed->offset});
         notes_.push_back("condition " + std::string(known.name) + " from the manifest's column '" +
                          title + "'");
@@ -60,6 +68,17 @@ StatedConditions::StatedConditions(const Manifest& manifest, fs::path folder)
       break;
     }
   }
+}
+
+void StatedConditions::add_build_column() {
+  const std::string title(kBuild);
+  known_.insert(title);
+  if (!manifest_->holds_numbers(title))
+    return notes_.push_back(
+        "the manifest's column '" + title +
+        "' is not used: some of it are no numbers; number the builds 1, 2, ...");
+  columns_.push_back({title, title, 1, 0});
+  notes_.push_back("condition " + title + " from the manifest's column '" + title + "'");
 }
 
 void StatedConditions::add_column(Record& record, const SourcePath& file,

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,15 @@ class StatedConditions {
   void add(Record& record, const SourcePath& file, const FileStatement& statement);
   /// What columns of the manifest were used for, or why one with a familiar name was not.
   const std::vector<std::string>& notes() const { return notes_; }
+  /// Whether a column was used by its name, or notes() says why not.
+  bool knows(const std::string& title) const { return known_.contains(title); }
 
  private:
   struct Column {
     std::string title, condition;
     double factor = 1, offset = 0;
   };
+  void add_build_column();
   void add_column(Record& record, const SourcePath& file, const Column& column) const;
   void add_drawing(Record& record, const std::string& drawing, const std::filesystem::path& folder,
                    const std::string& where);
@@ -42,6 +46,7 @@ class StatedConditions {
   bool has_drawings_ = false;    ///< a column "damper" that names files
   std::map<std::string, DamperDescription> drawings_;
   std::vector<std::string> notes_;
+  std::set<std::string> known_;  ///< titles
 };
 
 }  // namespace dashpot

@@ -311,10 +311,11 @@ TextTable read_text_table(const fs::path& path) {
   while (const auto line = source.next()) {
     if (is_comment(*line)) continue;
 
-    // The first line names the columns and decides on the separator.
+    // The first line names the columns and decides on the separator: the one that it has most of.
     if (table.names.empty())
-      for (const char candidate : {';', '\t', ','})
-        if (line->find(candidate) != std::string_view::npos) separator = candidate;
+      for (const char candidate : {',', ';', '\t'})
+        if (std::ranges::count(*line, candidate) > std::ranges::count(*line, separator))
+          separator = candidate;
     split_cells(*line, separator, cells);
     if (table.names.empty()) {
       table.names.assign(cells.begin(), cells.end());
@@ -327,6 +328,12 @@ TextTable read_text_table(const fs::path& path) {
                       std::to_string(table.names.size()));
     table.rows.emplace_back(cells.begin(), cells.end());
     table.lines.push_back(source.line());
+
+    // A decimal comma, where no comma separates: one number that can be read no other way tells.
+    if (separator != ',' && std::ranges::any_of(cells, [](std::string_view cell) {
+          return !parse_number(cell) && parse_number(cell, ',');
+        }))
+      table.decimal = ',';
   }
   return table;
 }

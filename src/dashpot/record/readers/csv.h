@@ -28,6 +28,7 @@ struct TextTable {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
   std::vector<std::size_t> lines;  ///< of each row in the file
+  char decimal = '.';              ///< ',' where numbers are written with it and none separates
 };
 TextTable read_text_table(const std::filesystem::path& path);
 
