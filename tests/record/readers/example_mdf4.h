@@ -34,15 +34,18 @@ class ExampleMdf4 {
   }
   std::uint64_t text(const std::string& text) { return block("TX", {}, text + '\0'); }
 
-  /// A conversion with its numbers, by the kind's number of the standard.
-  std::uint64_t conversion(int kind, const std::vector<double>& numbers) {
+  /// A conversion with its numbers and texts, by the kind's number of the standard.
+  std::uint64_t conversion(int kind, const std::vector<double>& numbers,
+                           const std::vector<std::uint64_t>& texts = {}) {
     std::string data(1, static_cast<char>(kind));
     data += std::string(3, '\0');
-    put<std::uint16_t>(data, 0);
-    put<std::uint16_t>(data, static_cast<std::uint16_t>(numbers.size()));
+    put(data, static_cast<std::uint16_t>(texts.size()));
+    put(data, static_cast<std::uint16_t>(numbers.size()));
     put(data, 0.0), put(data, 0.0);
     for (const double number : numbers) put(data, number);
-    return block("CC", {0, 0, 0, 0}, data);
+    std::vector<std::uint64_t> links{0, 0, 0, 0};
+    links.insert(links.end(), texts.begin(), texts.end());
+    return block("CC", links, data);
   }
 
   struct Channel {

@@ -106,6 +106,66 @@ TEST_CASE("MDF 4: conversions by the standard's numbers; bits that say invalid")
   CHECK(std::isnan(table.columns[4].values[2]));
 }
 
+TEST_CASE("MDF 4: halves; texts for some values leave the others numbers") {
+  ExampleMdf4 file;
+  const std::uint64_t text = file.text("sensor fault"), tenth = file.conversion(1, {0, 0.1});
+  const std::uint64_t of_value = file.conversion(7, {255}, {text, tenth});
+  const std::uint64_t of_range = file.conversion(8, {250, 260}, {text, tenth});
+  const std::uint64_t all_texts = file.conversion(7, {255}, {text, text});
+  std::string records;
+  for (const auto& [half, value] :
+       {std::pair<std::uint16_t, double>{0xC100, 20}, {0x3555, 255}, {0x0001, 251}})
+    put(records, half), put(records, value);
+  const RawTable table = read_group(file,
+                                    {{.name = "h", .bits = 16},
+                                     {.name = "v", .byte = 2, .conversion = of_value},
+                                     {.name = "r", .byte = 2, .conversion = of_range},
+                                     {.name = "w", .byte = 2, .conversion = all_texts}},
+                                    records, 10);
+  REQUIRE(table.columns.size() == 3);
+  CHECK(table.columns[0].values == std::vector<double>{-2.5, 1365.0 / 4096, std::ldexp(1, -24)});
+  CHECK(table.columns[1].values[0] == 2);
+  CHECK(std::isnan(table.columns[1].values[1]));
+  CHECK(table.columns[1].values[2] == 251 * 0.1);
+  CHECK(std::isnan(table.columns[2].values[2]));
+  REQUIRE(table.notes.size() == 3);
+  CHECK(table.notes[0] == "channel 'v': values that its conversion gives as texts are no numbers");
+  CHECK(table.notes[2] == "channel 'w' passed over: its conversion gives texts");
+}
+
+TEST_CASE("MDF 4: channels in groups of their own with the same times are one recording") {
+  const auto read = [](double shift) {
+    ExampleMdf4 file;
+    std::string forces, strokes;
+    for (int k = 0; k < 40; ++k) {
+      put(forces, 0.01 * k), put(forces, 100.0 * (k % 5));
+      put(strokes, 0.01 * k + shift), put(strokes, 1.5 * (k % 7));
+    }
+    const auto group = [&](const char* name, const char* unit, const std::string& records,
+                           std::uint64_t next) {
+      const std::uint64_t data = file.data(records);
+      const std::uint64_t channels = file.group({{.name = "t", .unit = "s", .kind = 2, .sync = 1},
+                                                 {.name = name, .unit = unit, .byte = 8}},
+                                                40, 16);
+      return file.data_group(channels, data, 0, next);
+    };
+    const std::uint64_t second = group("displacement", "mm", strokes, 0);
+    return read_mdf4_bytes(file.finish(group("force", "N", forces, second)));
+  };
+  const auto tables = read(0);
+  REQUIRE(tables.size() == 1);
+  REQUIRE(tables.front().columns.size() == 3);
+  CHECK(tables.front().columns[2].name == "displacement");
+  CHECK(tables.front().columns[2].values[6] == 9);
+  CHECK(tables.front().notes.at(0) ==
+        "'displacement' is of a group of its own with the same times");
+
+  const auto apart = read(0.001);
+  REQUIRE(apart.size() == 1);
+  CHECK(apart.front().columns.size() == 2);
+  CHECK(apart.front().notes.at(0).find("passed over") != std::string::npos);
+}
+
 TEST_CASE("MDF 4: records of several groups in one stream; the group with the force is read") {
   ExampleMdf4 file;
   std::string stream;

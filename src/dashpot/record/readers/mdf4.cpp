@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -77,6 +78,9 @@ Group read_group(Mdf4Blocks& blocks, const Mdf4Block& block) {
     const auto invalid = read.channel.invalid_bit;
     if (invalid && *invalid / 8 >= group.invalid_bytes)
       blocks.fail(at, "an invalidation bit beyond the record,");
+    if (!read.channel.texts.empty() && read.reason.empty())
+      group.notes.push_back("channel '" + read.channel.name +
+                            "': values that its conversion gives as texts are no numbers");
     if (read.reason.empty())
       group.channels.push_back(std::move(read.channel));
     else
@@ -109,28 +113,86 @@ std::vector<DataGroup> read_groups(Mdf4Blocks& blocks) {
   return all;
 }
 
+bool has_force(const Group& group) {
+  return std::ranges::any_of(group.channels,
+                             [](const Mdf4Channel& c) { return is_recognised(c, "force"); });
+}
+
+void note_passed_over(const Group& group, std::vector<std::string>& notes) {
+  std::vector<std::string> names;
+  for (const Mdf4Channel& channel : group.channels) names.push_back("'" + channel.name + "'");
+  if (names.size() > 8) names.resize(8), names.push_back("...");
+  notes.push_back(
+      "a group on a time base of its own passed over, since another holds the "
+      "force: " +
+      join(names, ", "));
+}
+
 /// Leaves the channels of groups empty that are no recording: where some group holds a force, those
-/// without one.
+/// without one, but for those that have as many records as one with a force, whose times they may
+/// share.
 void choose_groups(std::vector<DataGroup>& all, std::vector<std::string>& notes) {
-  const auto has_force = [](const Group& group) {
-    return std::ranges::any_of(group.channels,
-                               [](const Mdf4Channel& c) { return is_recognised(c, "force"); });
-  };
-  const bool any = std::ranges::any_of(
-      all, [&](const DataGroup& data) { return std::ranges::any_of(data.groups, has_force); });
+  std::set<std::uint64_t> lengths;  // of those with a force
+  for (const DataGroup& data : all)
+    for (const Group& group : data.groups)
+      if (has_force(group)) lengths.insert(group.records);
+  if (lengths.empty()) return;
 
   for (DataGroup& data : all)
     for (Group& group : data.groups) {
-      if (group.channels.empty() || !any || has_force(group)) continue;
-      std::vector<std::string> names;
-      for (const Mdf4Channel& channel : group.channels) names.push_back("'" + channel.name + "'");
-      if (names.size() > 8) names.resize(8), names.push_back("...");
-      notes.push_back(
-          "a group on a time base of its own passed over, since another holds the "
-          "force: " +
-          join(names, ", "));
+      const bool is_kept = has_force(group) || lengths.contains(group.records);
+      if (group.channels.empty() || is_kept) continue;
+      note_passed_over(group, notes);
       group.channels.clear();
     }
+}
+
+/// Whether two groups that were read have a time base, and one.
+bool share_times(const Group& a, const Group& b) {
+  const auto time_of = [](const Group& group) {
+    const auto at = std::ranges::find(group.channels, true, &Mdf4Channel::is_time);
+    return at == group.channels.end()
+               ? nullptr
+               : &group.table.columns[static_cast<std::size_t>(at - group.channels.begin())];
+  };
+  const RawColumn *first = time_of(a), *second = time_of(b);
+  return first && second && first->unit == second->unit && first->values == second->values;
+}
+
+/// Moves the columns of groups without a force to the one with a force that has the same times, as
+/// loggers write one group per channel. Where none has, or several have, they are passed over.
+void join_groups(std::vector<DataGroup>& all, std::vector<std::string>& notes) {
+  std::vector<Group*> with, without;
+  for (DataGroup& data : all)
+    for (Group& group : data.groups)
+      if (!group.channels.empty()) (has_force(group) ? with : without).push_back(&group);
+  if (with.empty()) return;
+
+  // All are found before any column moves.
+  std::vector<Group*> fits(without.size(), nullptr);
+  for (std::size_t k = 0; k < without.size(); ++k) {
+    std::size_t count = 0;
+    for (Group* group : with)
+      if (share_times(*without[k], *group)) fits[k] = group, ++count;
+    if (count != 1) fits[k] = nullptr;
+  }
+
+  for (std::size_t k = 0; k < without.size(); ++k) {
+    Group& from = *without[k];
+    if (!fits[k]) {
+      note_passed_over(from, notes);
+    } else {
+      RawTable& to = fits[k]->table;
+      for (std::size_t c = 0; c < from.channels.size(); ++c)
+        if (!from.channels[c].is_time) {
+          to.notes.push_back("'" + from.channels[c].name +
+                             "' is of a group of its own with the same times");
+          to.columns.push_back(std::move(from.table.columns[c]));
+        }
+      to.notes.insert(to.notes.end(), from.notes.begin(), from.notes.end());
+    }
+    from.channels.clear();
+  }
 }
 
 /// Columns of a group, with room for what it states as far as the file can hold it.
@@ -287,8 +349,9 @@ std::vector<RawTable> read_mdf4(const fs::path& path) {
 
   // A table of each group that is left.
   std::vector<RawTable> tables;
-  for (DataGroup& data : all) {
-    read_data(blocks, data);
+  for (DataGroup& data : all) read_data(blocks, data);
+  join_groups(all, notes);
+  for (DataGroup& data : all)
     for (Group& group : data.groups)
       if (!group.channels.empty() && group.table.rows() > 0) {
         group.table.part_index = tables.size();
@@ -296,7 +359,6 @@ std::vector<RawTable> read_mdf4(const fs::path& path) {
         group.table.part_name = group.name;
         tables.push_back(std::move(group.table));
       }
-  }
   if (tables.empty())
     throw NoTable(path.string(), "no group of channels holds numbers",
                   "a recording has one channel per signal and a time base");

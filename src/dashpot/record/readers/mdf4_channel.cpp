@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dashpot/error.h"
 
@@ -20,8 +21,20 @@ std::uint64_t stored_bits(const Mdf4Channel& channel, const char* record) {
   return channel.bits == 64 ? bits : bits & ((std::uint64_t{1} << channel.bits) - 1);
 }
 
+/// A half: 1 bit of sign, 5 of the exponent, 10 of the fraction (IEEE 754 binary16).
+double half_number(std::uint16_t bits) {
+  const int exponent = (bits >> 10) & 31, fraction = bits & 1023;
+  const double size = exponent == 31  ? fraction == 0 ? std::numeric_limits<double>::infinity()
+                                                      : std::numeric_limits<double>::quiet_NaN()
+                      : exponent == 0 ? std::ldexp(fraction, -24)
+                                      : std::ldexp(1024 + fraction, exponent - 25);
+  return bits >> 15 ? -size : size;
+}
+
 double stored_number(const Mdf4Channel& channel, const char* record) {
   using Type = Mdf4Channel::Type;
+  if (channel.type == Type::Float && channel.bytes == 2)
+    return half_number(number_at<std::uint16_t>(record + channel.byte, channel.big_endian));
   if (channel.type == Type::Float)
     return channel.bytes == 8 ? number_at<double>(record + channel.byte, channel.big_endian)
                               : number_at<float>(record + channel.byte, channel.big_endian);
@@ -59,6 +72,27 @@ double from_ranges(const std::vector<double>& numbers, double x) {
   return numbers.size() % 3 == 1 ? numbers.back() : std::numeric_limits<double>::quiet_NaN();
 }
 
+std::string read_conversion(Mdf4Blocks& blocks, std::uint64_t at, Mdf4Channel& channel);
+
+/// A conversion of some values to texts: the others are numbers where its default, behind the
+/// texts, is a conversion.
+std::string read_texts(Mdf4Blocks& blocks, const Mdf4Block& block, bool of_ranges,
+                       Mdf4Channel& channel) {
+  constexpr std::size_t kBeforeTexts = 4, kMostTexts = 1000;  // links; each is tried for each value
+  const std::vector<double> ends = std::exchange(channel.conversion.numbers, {});
+  const std::size_t texts = of_ranges ? ends.size() / 2 : ends.size();
+  const std::uint64_t otherwise = block.link(kBeforeTexts + texts);
+  if (texts == 0 || texts > kMostTexts || otherwise == 0 || !channel.texts.empty() ||
+      blocks.block(otherwise, "CC TX MD").name != "CC")
+    return "its conversion gives texts";
+
+  for (std::size_t k = 0; k < texts; ++k) {
+    channel.texts.push_back(of_ranges ? ends[2 * k] : ends[k]);
+    channel.texts.push_back(of_ranges ? ends[2 * k + 1] : ends[k]);
+  }
+  return read_conversion(blocks, otherwise, channel);
+}
+
 /// A conversion, or the reason why it is none to a number. The unit where the channel has none.
 std::string read_conversion(Mdf4Blocks& blocks, std::uint64_t at, Mdf4Channel& channel) {
   if (at == 0) return {};
@@ -75,6 +109,7 @@ std::string read_conversion(Mdf4Blocks& blocks, std::uint64_t at, Mdf4Channel& c
 
   // The kinds of the standard, by number; the numbers that each needs at least.
   using Kind = Mdf4Conversion::Kind;
+  enum : unsigned char { kValueToText = 7, kRangeToText = 8 };
   struct Row {
     Kind kind;
     std::size_t least;
@@ -87,6 +122,8 @@ std::string read_conversion(Mdf4Blocks& blocks, std::uint64_t at, Mdf4Channel& c
                                        {Kind::Nearest, 2},
                                        {Kind::Ranges, 3}}};
   if (kind == 3) return "its conversion is a formula";
+  if (kind == kValueToText || kind == kRangeToText)
+    return read_texts(blocks, block, kind == kRangeToText, channel);
   if (kind >= kKinds.size()) return "its conversion gives texts";
   if (count < kKinds[kind].least) blocks.fail(at, "a conversion without its numbers");
   channel.conversion.kind = kKinds[kind].kind;
@@ -106,7 +143,7 @@ std::string read_place(Mdf4Blocks& blocks, const Mdf4Block& block, const std::st
   channel.bits = number_at<std::uint32_t>(data.data() + 8);
 
   // What is stored; a bit alone is a state and no measurement.
-  if (channel.type == Type::Float && channel.bits != 32 && channel.bits != 64)
+  if (channel.type == Type::Float && channel.bits != 16 && channel.bits != 32 && channel.bits != 64)
     return "its numbers have " + std::to_string(channel.bits) + " bits";
   if (channel.bits < 4) return "it is a state of " + std::to_string(channel.bits) + " bits";
   if (channel.bits > 64 || channel.first_bit > 7 ||
@@ -140,7 +177,11 @@ double Mdf4Conversion::operator()(double x) const {
 }
 
 double Mdf4Channel::value(const char* record, std::uint64_t number) const {
-  return conversion(is_virtual ? static_cast<double>(number) : stored_number(*this, record));
+  const double stored = is_virtual ? static_cast<double>(number) : stored_number(*this, record);
+  for (std::size_t k = 0; k + 1 < texts.size(); k += 2)
+    if (texts[k] <= stored && stored <= texts[k + 1])
+      return std::numeric_limits<double>::quiet_NaN();
+  return conversion(stored);
 }
 
 Mdf4ChannelOrReason read_mdf4_channel(Mdf4Blocks& blocks, const Mdf4Block& block,

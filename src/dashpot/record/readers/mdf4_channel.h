@@ -27,8 +27,10 @@ struct Mdf4Channel {
   std::uint32_t byte = 0, bytes = 0, first_bit = 0, bits = 0;
   std::optional<std::uint32_t> invalid_bit;  ///< behind the data of a record
   Mdf4Conversion conversion;
+  std::vector<double> texts;  ///< pairs of ends, both inside: stored values that stand for texts
 
-  /// The physical value in a record; `number` is the record's own.
+  /// The physical value in a record, no number where a text stands for it; `number` is the record's
+  /// own.
   double value(const char* record, std::uint64_t number) const;
 };
 
