@@ -204,6 +204,13 @@ TEST_CASE("what cannot be told is said: rest, half a cycle, random motion, a rod
   CHECK(remark_of(whole).empty());
   CHECK(contains(remark_of(whole.slice(0, 1100)), "no whole cycle"));
 
+  // One turning point that is reached by half: the cycles before and behind it.
+  Record half = dyno_record({}, {1}, 0.025, 8, 0.005, 8);
+  Channel& stroke = *half.find("displacement");
+  for (std::size_t k = 5600; k < 6800; ++k) stroke.samples[k] = std::max(stroke.samples[k], 0.0);
+  CHECK(remark_of(half).starts_with(
+      "2 cycles left out: the two strokes differ by more than 10 % in length"));
+
   // Noise about one place.
   Record rest = whole;
   std::mt19937 generator(9);

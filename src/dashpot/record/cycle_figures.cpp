@@ -297,6 +297,14 @@ std::string told_without_cycles(const DynoChannels& c) {
                      greatest, 1000 * fastest);
 }
 
+/// How many cycles are no part of the figures, and why; "" where none was left out.
+std::string left_out_remark(std::size_t unlike) {
+  if (unlike == 0) return {};
+  return fmt::format(
+      "{} cycle{} left out: the two strokes differ by more than {:g} % in length or {:g} % in time",
+      unlike, unlike == 1 ? "" : "s", 100 * kStrokesAlike, 100 * kTimesAlike);
+}
+
 }  // namespace
 
 double noise_of(std::span<const double> samples) {
@@ -445,14 +453,17 @@ RecordFigures figures_of_record(const Record& record, DriveUnit drive_unit) {
     return (k == 0 || k + 1 == record.size()) &&
            std::abs(c.velocity[k]) > kAtRest * std::abs(fastest);
   };
-  std::size_t coarse = 0;
+  std::size_t coarse = 0, unlike = 0;
   for (std::size_t k = 0; k + 2 < points.size(); ++k) {
     const std::size_t a = points[k], b = points[k + 1], e = points[k + 2];
     const double up = c.displacement[b] - c.displacement[a],
                  down = c.displacement[b] - c.displacement[e];
-    if (up < 0 || cut_off(a) || cut_off(e) || !alike(up, down, kStrokesAlike) ||
-        !alike(c.time[b] - c.time[a], c.time[e] - c.time[b], kTimesAlike))
+    if (up < 0 || cut_off(a) || cut_off(e)) continue;
+    if (!alike(up, down, kStrokesAlike) ||
+        !alike(c.time[b] - c.time[a], c.time[e] - c.time[b], kTimesAlike)) {
+      ++unlike;
       continue;
+    }
     if (std::min(b - a, e - b) < kLeastSamples) {
       ++coarse;
       continue;
@@ -484,6 +495,8 @@ RecordFigures figures_of_record(const Record& record, DriveUnit drive_unit) {
     figures.remarks.push_back(told_without_cycles(c));
   }
   if (figures.cycles.empty()) return figures;
+  if (std::string remark = left_out_remark(unlike); !remark.empty())
+    figures.remarks.push_back(std::move(remark));
 
   // How the cycles repeat, and what goes on over time and temperature.
   figures.repeatability = repeatability_of(figures.cycles);
