@@ -77,8 +77,10 @@ void require_numbers(const RawTable& table, const ColumnUse& use, bool as_given)
               what + (column.bad->text.empty() ? "empty"
                                                : "'" + column.bad->text + "', not a finite number"),
               as_given ? "leave that sample out"
-                       : "write it as 12.5, or leave the row out ('on_bad_row: drop' in a dataset "
-                         "file)");
+                       : "write it as 12.5, or leave such rows out: dataset.yaml beside the "
+                         "recordings, 'files: [{match: \"" +
+                             std::filesystem::path(table.file).filename().string() +
+                             "\", on_bad_row: drop}]'");
 }
 
 /// "Ts" of "test.Ts": what stands in a structure is known by its own name.

@@ -75,17 +75,19 @@ RawTable without_bad_rows(RawTable table, const ColumnUses& uses, bool drop) {
   std::vector<Rows> kept{{0, end}};
   if (drop) {
     kept.clear();
-    std::size_t good = 0, first = 0;
+    std::size_t good = 0, first = 0, first_bad = end;
     for (std::size_t row = 0; row <= end; ++row) {
       const bool bad = row == end || std::any_of(uses.used.begin(), uses.used.end(),
                                                  [&](const auto& use) { return is_bad(use, row); });
       if (!bad) continue;
+      first_bad = std::min(first_bad, row);
       if (row > first) kept.emplace_back(first, row), good += row - first;
       first = row + 1;
     }
     if (good < end)
       table.notes.push_back(std::to_string(end - good) + " of " + std::to_string(table.rows()) +
-                            " rows dropped: a used cell holds no number ('on_bad_row: drop')");
+                            " rows dropped: a used cell holds no number ('on_bad_row: drop'), " +
+                            (end - good == 1 ? "" : "first ") + "at " + table.where(first_bad));
   }
   return end == table.rows() && !drop ? table : rows_of(table, kept);
 }
