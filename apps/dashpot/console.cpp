@@ -86,10 +86,14 @@ void Console::talk_over(std::size_t lines, std::string_view text) {
 }
 
 void Console::note(std::string_view text) {
+  remarks_.emplace_back(text);
   if (!quiet) message("note", "1", text);
 }
 
-void Console::warn(std::string_view text) { message("warning", "1;33", text); }
+void Console::warn(std::string_view text) {
+  remarks_.emplace_back(text);
+  message("warning", "1;33", text);
+}
 
 void Console::error(std::string_view text) { message("error", "1;31", text); }
 

@@ -41,6 +41,8 @@ class Console {
   void note(std::string_view text);
   void warn(std::string_view text);
   void error(std::string_view text);
+  /// Notes and warnings up to now, for a result that tells them too.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// For long work: draws progress and passes the interruption on.
   Monitor monitor();
@@ -67,6 +69,7 @@ class Console {
   int live_width_;
   ProgressLine progress_;
   bool reader_has_left_ = false;
+  std::vector<std::string> remarks_;
 };
 
 /// One word of a command line, quoted for a shell where it must be.

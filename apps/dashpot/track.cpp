@@ -240,7 +240,8 @@ void write_curves(const std::vector<TrackedScheme>& tracked, const Task& task, D
   console.print("Picture  " + write_track_figure(tracked, unit, folder).front().string() + '\n');
 }
 
-Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, const Task& task) {
+Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, const Task& task,
+              const std::vector<std::string>& remarks) {
   Value schemes = Value::array();
   for (const auto& [name, r] : tracked)
     schemes.push_back(Value::object({{"inverse", name},
@@ -251,7 +252,8 @@ Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, c
   return Value::object({{"damper", damper.name},
                         {"wanted", task.description},
                         {"span_N", tracked.front().report.span},
-                        {"schemes", std::move(schemes)}});
+                        {"schemes", std::move(schemes)},
+                        {"remarks", Value::array(remarks)}});
 }
 
 int run_track(const TrackSettings& settings, Console& console) {
@@ -281,7 +283,7 @@ int run_track(const TrackSettings& settings, Console& console) {
 
   if (!settings.folder.empty())
     write_curves(tracked, task, damper.drive_unit, settings.folder, console);
-  if (console.json) console.print_json(json_of(tracked, damper, task));
+  if (console.json) console.print_json(json_of(tracked, damper, task, console.remarks()));
   return kDone;
 }
 

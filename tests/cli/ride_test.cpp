@@ -19,7 +19,11 @@ TEST_CASE("ride: two controllers against passive, with a page") {
   CHECK(contains(result.output, "below passive"));
   CHECK(contains(read_file(out + "/report.html"), "The trade-off on the road"));
   CHECK(contains(read_file(out + "/report.md"), "| skyhook |"));
-  CHECK(parse_json(read_file(out + "/report.json"), "report").find("held")->items().size() == 2);
+  const Value data = parse_json(read_file(out + "/report.json"), "report");
+  CHECK(data.find("held")->items().size() == 2);
+  CHECK(data.find("units")->find("travel")->as_string() == "mm");
+  CHECK(data.find("units")->find("tyre_load")->as_string() == "%");
+  CHECK(contains(data.find("remarks")->items().back().as_string(), "are an example"));
 }
 
 TEST_CASE("ride: wrong command lines" * doctest::test_suite("long")) {

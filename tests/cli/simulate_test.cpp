@@ -38,6 +38,7 @@ TEST_CASE("simulate: JSON, MATLAB traces, no comparison") {
   const Value data = parse_json(result.output, "stdout");
   CHECK(data.find("plant")->as_string() == "savaresi_spelta");
   CHECK(data.find("against")->is_null());
+  CHECK(contains(data.find("remarks")->items().back().as_string(), "are an example"));
   CHECK(data.find("run")->find("damping_max")->as_number() == 3900);
   CHECK(std::filesystem::exists(out + "/trace.mat"));
 }

@@ -23,6 +23,7 @@ TEST_CASE("track: every scheme that applies, the numeric one best and within 1 %
   const Value result = track_json("--parameters spencer1997");
   const std::vector<Value>& schemes = result.find("schemes")->items();
   CHECK(schemes.size() == 7);  // no closed form is known for this law
+  CHECK(contains(result.find("remarks")->items().back().as_string(), "is left out: "));
   CHECK(schemes.front().find("inverse")->as_string() == "numeric");
   CHECK(number(*schemes.front().find("reachable"), "rms_span_percent") < 1);
   CHECK(number(*schemes.back().find("reachable"), "rms_span_percent") > 5);
@@ -33,6 +34,7 @@ TEST_CASE("track: every scheme that applies, the numeric one best and within 1 %
 TEST_CASE("track: a force beyond the damper saturates it, and the table says so") {
   const Value result =
       track_json("--parameters kwok2006 --inverse numeric --wanted sine --force 90000");
+  CHECK(contains(result.find("remarks")->items().at(0).as_string(), "are an example"));
   const Value& scheme = result.find("schemes")->items().front();
   CHECK(number(scheme, "reachable_percent") < 2);
   CHECK(number(scheme, "saturated_percent") > 95);

@@ -288,6 +288,24 @@ Value ridden_json(const RiddenVehicle& ridden) {
                         {"warnings", Value::array(ridden.road.warnings)}});
 }
 
+/// The units of the measures, which are those of people.
+Value measure_units_json(const RiddenVehicle& ridden) {
+  Value units = Value::object();
+  for (const SimulatedRun* run : {&ridden.road, &ridden.step})
+    for (const RideMeasure& m : run->measures)
+      if (!units.find(m.name)) units.add(m.name, m.unit);
+  return units;
+}
+
+/// Warnings of every ride, and controllers that this vehicle could not have.
+std::vector<std::string> remarks_of(const RideStudy& study) {
+  std::vector<const SimulatedRun*> runs;
+  for (const RiddenVehicle* one : all_of(study)) runs.push_back(&one->road);
+  std::vector<std::string> remarks = run_remarks(runs);
+  remarks.insert(remarks.end(), study.left_out.begin(), study.left_out.end());
+  return remarks;
+}
+
 }  // namespace
 
 Document ride_document(const RideStudy& study) {
@@ -301,19 +319,13 @@ Document ride_document(const RideStudy& study) {
       .version = {},
       .date = {}};
 
-  // Warnings of every ride, and controllers that this vehicle could not have.
-  std::vector<const SimulatedRun*> runs;
-  for (const RiddenVehicle* one : all_of(study)) runs.push_back(&one->road);
-  std::vector<std::string> remarks = run_remarks(runs);
-  remarks.insert(remarks.end(), study.left_out.begin(), study.left_out.end());
-
   // The road first, then what is possible there, gains and the step.
   document.sections.push_back({.name = "road",
                                .title = "Comfort against road holding",
                                .paragraphs = {},
                                .tables = {road_table(study)},
                                .figures = {trade_off_figure(study), road_figure(study)},
-                               .remarks = std::move(remarks)});
+                               .remarks = remarks_of(study)});
   if (!study.front.empty())
     document.sections.push_back({.name = "possible",
                                  .title = "What is possible",
@@ -348,7 +360,9 @@ Value ride_json(const RideStudy& study) {
                         {"passive", ridden_json(study.passive)},
                         {"controlled", std::move(controlled)},
                         {"held", std::move(held)},
-                        {"possible", front_json(study.front)}});
+                        {"possible", front_json(study.front)},
+                        {"units", measure_units_json(study.passive)},
+                        {"remarks", Value::array(remarks_of(study))}});
 }
 
 }  // namespace dashpot

@@ -27,6 +27,13 @@ std::vector<Shown> shown_runs(const Simulation& s) {
   return runs;
 }
 
+/// The run, and the one that it is compared with.
+std::vector<const SimulatedRun*> runs_of(const Simulation& s) {
+  std::vector<const SimulatedRun*> runs{&s.run};
+  if (s.against) runs.push_back(&*s.against);
+  return runs;
+}
+
 DocumentTable measure_table(const Simulation& s) {
   DocumentTable table{.title = "",
                       .columns = {{.title = "measure", .elastic = true},
@@ -166,8 +173,6 @@ std::string verdict_of(const Simulation& s) {
 
 Document simulation_document(const Simulation& s) {
   const Vehicle& vehicle = *s.run.vehicle;
-  std::vector<const SimulatedRun*> runs{&s.run};
-  if (s.against) runs.push_back(&*s.against);
   Document document{
       .title = vehicle.set.plant.title.empty() ? vehicle.set.name : vehicle.set.plant.title,
       .subtitle = s.run.name + " on " + s.ground,
@@ -187,7 +192,7 @@ Document simulation_document(const Simulation& s) {
                       " s. Damper: " + join(names, "; ") + "."},
        .tables = {measure_table(s)},
        .figures = {},
-       .remarks = run_remarks(runs)});
+       .remarks = run_remarks(runs_of(s))});
 
   // Over time, and the damper at work.
   DocumentSection time{.name = "time", .title = "Over time", .paragraphs = {}};
@@ -223,7 +228,8 @@ Value simulation_json(const Simulation& s) {
                         {"ground", s.ground},
                         {"duration", s.duration},
                         {"run", json_of(s.run)},
-                        {"against", s.against ? json_of(*s.against) : Value()}});
+                        {"against", s.against ? json_of(*s.against) : Value()},
+                        {"remarks", Value::array(run_remarks(runs_of(s)))}});
 }
 
 }  // namespace dashpot
