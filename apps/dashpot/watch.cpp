@@ -236,7 +236,8 @@ int run_watch(const WatchSettings& settings, Console& console) {
   document.date = date_now();
   document.units = units;
   print_document(document, console);
-  console.print("\n" + write_document(document, settings.folder, "report", false, watch_csv(told)));
+  console.print("\n" + write_document(document, settings.folder, "report", false,
+                                      watch_csv(told, file_units(settings.units))));
   console.print(settings.state.empty()
                     ? "No state  name a --state FILE, and a new day is added without the old ones\n"
                     : "State    " + settings.state + ", " + counted(state.days().size(), "day") +

@@ -281,10 +281,10 @@ std::string verdict_of(const Watched& watched) {
 }
 
 /// Titles of the rows of watch_csv().
-std::string csv_titles(const Watched& watched) {
+std::string csv_titles(const Watched& watched, const PrintUnits& units) {
   std::string text = "day";
   for (const WatchedQuantity& q : watched.quantities) {
-    const std::string unit = is_share(q) ? "" : " [" + q.unit + "]";
+    const std::string unit = is_share(q) ? "" : " [" + units.of(q.unit).name + "]";
     text += ',' + q.name + unit + ',' + q.name + "_deviation" + unit + ',' + q.name + "_expected" +
             unit + ',' + q.name + "_scatter" + unit + ',' + q.name + "_score," + q.name + "_sum";
   }
@@ -327,17 +327,20 @@ Document watch_document(const Watched& watched) {
   return document;
 }
 
-std::string watch_csv(const Watched& watched) {
-  std::string text = csv_titles(watched);
+std::string watch_csv(const Watched& watched, const PrintUnits& units) {
+  std::string text = csv_titles(watched, units);
   for (std::size_t d = 0; d < watched.days.size(); ++d) {
     const WatchedDay& day = watched.days[d];
     const auto add = [&](double value) { text += ',' + format_number(value, 9); };
     text += csv_field(day.estimate.name);
     for (const WatchedQuantity& q : watched.quantities) {
       const ChartPoint& point = q.chart.points[d];
+      const double factor = units.of(q.unit).factor;
       for (const double value : {day.estimate.wear[q.place], day.estimate.wear_deviation[q.place],
-                                 point.expected, point.scatter, point.score, point.sum})
-        add(value);
+                                 point.expected, point.scatter})
+        add(factor * value);
+      add(point.score);
+      add(point.sum);
     }
     for (const double value : day.estimate.plant) add(value);
     for (const double value : day.known) add(value);

@@ -8,7 +8,7 @@ namespace dashpot::cli {
 
 /// Verdict, the days as a table, the charts, and all of it as JSON.
 Document watch_document(const Watched& watched);
-/// A row per day, SI.
-std::string watch_csv(const Watched& watched);
+/// A row per day.
+std::string watch_csv(const Watched& watched, const PrintUnits& units);
 
 }  // namespace dashpot::cli

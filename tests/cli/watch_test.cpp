@@ -58,6 +58,13 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
   CHECK(contains(read_file(out + "/report.html"), "watched from day to day"));
   CHECK(contains(read_file(out + "/report.csv"), "day,force,force_deviation"));
 
+  // The file for programs has the units that are asked for, as the page has.
+  const std::string inches = (folder.path() / "inches").string();
+  REQUIRE(run_dashpot("watch " + model + " --in " + plant + " --tracked force --level x " +
+                      "--reference 6 --units lbf,in/s --output " + inches + ' ' + healthy)
+              .exit_code == 0);
+  CHECK(contains(read_file(inches + "/report.csv"), "x [in],x_deviation [in]"));
+
   // The same folder again: nothing is looked at twice, and the same comes out.
   const ProgramResult again = run_dashpot(words + healthy);
   CHECK(contains(again.output, "8 days, 0 new recordings looked at"));

@@ -26,6 +26,14 @@ TEST_CASE("a table that is too wide shortens names, then leaves out the least im
         "abcdefghijklmnopqr..  1    3\n");
 }
 
+TEST_CASE("columns of one title, one beside each of several others, are left out together") {
+  CHECK(text_table({{"day"}, {"force", true}, {"sum", true, 1}, {"gas", true}, {"sum", true, 1}},
+                   {{"monday", "-0.01", "3.5", "12", "1.5"}}, 24) ==
+        "day     force  gas\n"
+        "------------------\n"
+        "monday  -0.01   12\n");
+}
+
 TEST_CASE("names that begin alike keep their ends when they are shortened") {
   const std::vector<TextColumn> columns{{"Measure", false, 0, true}, {"A", true, 0}};
   CHECK(text_table(columns,

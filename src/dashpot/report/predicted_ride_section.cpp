@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/report/quantity.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -18,32 +19,37 @@ struct PredictedFigure {
   const char *key, *title, *hint;
   Estimate PredictedRide::* figure;
   int priority;
+  const char* unit = "";  ///< SI; "" where it is a share, whose title has the %
+  double to_si = 1;       ///< factor to that unit
 };
+constexpr double kMetres = 1e-3;  // per mm
 constexpr std::array kPredictedFigures{
     PredictedFigure{"ride_error_percent", "Ride error %",
                     "Root mean square of the next three, each over its rms in the damper's ride",
                     &PredictedRide::error, 0},
-    PredictedFigure{"weighted_acceleration", "a_w m/s^2",
+    PredictedFigure{"weighted_acceleration", "a_w",
                     "rms over time of the error of the body's acceleration, weighted by Wk",
-                    &PredictedRide::acceleration, 0},
+                    &PredictedRide::acceleration, 0, "m/s^2"},
     PredictedFigure{"tyre_load_percent", "Tyre load %",
                     "rms error of the worst tyre's load, of its static load",
                     &PredictedRide::tyre_load, 1},
-    PredictedFigure{"travel_mm", "Travel mm", "rms error of the worst strut's travel",
-                    &PredictedRide::travel, 1},
-    PredictedFigure{"weighted_acceleration_excess", "a_w m/s^2",
+    PredictedFigure{"travel_mm", "Travel", "rms error of the worst strut's travel",
+                    &PredictedRide::travel, 1, "m", kMetres},
+    PredictedFigure{"weighted_acceleration_excess", "a_w",
                     "Above 0, the damper rides better than the model says",
-                    &PredictedRide::acceleration_excess, 0},
+                    &PredictedRide::acceleration_excess, 0, "m/s^2"},
     PredictedFigure{"tyre_load_excess_percent", "Tyre load %", "Of the static load",
                     &PredictedRide::tyre_load_excess, 0},
-    PredictedFigure{"travel_excess_mm", "Travel mm", "Of the worst strut",
-                    &PredictedRide::travel_excess, 0}};
+    PredictedFigure{"travel_excess_mm", "Travel", "Of the worst strut",
+                    &PredictedRide::travel_excess, 0, "m", kMetres}};
 constexpr std::size_t kTraces = 4;  // of them are errors over time, the first ones
 
-/// "13.5 (9 ... 121)".
-std::string interval_text(const Estimate& figure) {
-  const auto end = [](double value) { return number_text(value, std::abs(value) < 99.5 ? 2 : 3); };
-  return fmt::format("{} ({} ... {})", number_text(figure.value, 3), end(figure.low),
+/// "13.5 (9 ... 121)", of a quantity in SI or of a share.
+std::string interval_text(const Estimate& figure, std::string_view unit = "", double to_si = 1) {
+  const auto end = [&](double value) {
+    return quantity(to_si * value, unit, std::abs(value) < 99.5 ? 2 : 3);
+  };
+  return fmt::format("{} ({} ... {})", quantity(to_si * figure.value, unit, 3), end(figure.low),
                      end(figure.high));
 }
 
@@ -55,9 +61,9 @@ std::string setting_of(const Ranking& ranking) {
   const RiddenThrough& ride = *ranking.ridden;
   return fmt::format(
       "{}, {}, {}, {} s. The damper is known by {}, whose errors on left-out records leave least "
-      "unexplained ({} N): with one of its errors, drawn {} times, it stands for the damper.",
+      "unexplained ({} {}): with one of its errors, drawn {} times, it stands for the damper.",
       ride.vehicle, ride.road, ride.controller, number_text(ride.duration), ride.known_by,
-      number_text(ride.unexplained), ride.draws);
+      quantity(ride.unexplained, "N"), unit_name("N"), ride.draws);
 }
 
 /// The two orders in a sentence.
@@ -81,9 +87,13 @@ DocumentTable predicted_table(const Ranking& ranking, std::string title,
                       .columns = {{.title = "Model", .elastic = true}},
                       .rows = {},
                       .leads_to = "closer"};
-  for (const PredictedFigure& figure : figures)
-    table.columns.push_back(
-        {.title = figure.title, .numeric = true, .priority = figure.priority, .hint = figure.hint});
+  for (const PredictedFigure& figure : figures) {
+    const std::string unit = *figure.unit ? ' ' + unit_name(figure.unit) : "";
+    table.columns.push_back({.title = figure.title + unit,
+                             .numeric = true,
+                             .priority = figure.priority,
+                             .hint = figure.hint});
+  }
   table.columns.push_back({.title = "ESR %", .numeric = true});
   table.columns.push_back(
       {.title = "On the bench", .numeric = true, .hint = "The place in the ranking by ESR"});
@@ -93,7 +103,7 @@ DocumentTable predicted_table(const Ranking& ranking, std::string title,
     std::vector<DocumentCell> row{{model->name}};
     for (const PredictedFigure& column : figures) {
       const Estimate& figure = (*model->ride).*column.figure;
-      row.push_back({interval_text(figure), figure.value});
+      row.push_back({interval_text(figure, column.unit, column.to_si), figure.value});
     }
     row.push_back({percent_text(model->left_out.pooled.esr), model->left_out.pooled.esr});
     row.push_back({std::to_string(place + 1)});

@@ -54,12 +54,17 @@ Layout lay_out(const std::vector<TextColumn>& columns, std::vector<std::size_t> 
       width = std::max(kShortest, width - std::min(width, excess));
   }
 
-  // Drop whole columns until the rest has room, or only those that must stay are left.
+  // Drop whole columns until the rest has room, or only those that must stay are left. Those of one
+  // title, one beside each of several others, go together: the last of them would seem to be of
+  // all.
   while (layout.total() > room) {
     const auto last = std::ranges::max_element(
         layout.shown, {}, [&](std::size_t column) { return columns[column].priority; });
-    if (columns[*last].priority == 0) break;
-    layout.shown.erase(last);
+    const TextColumn& least = columns[*last];
+    if (least.priority == 0) break;
+    std::erase_if(layout.shown, [&](std::size_t column) {
+      return columns[column].title == least.title && columns[column].priority == least.priority;
+    });
   }
   return layout;
 }
