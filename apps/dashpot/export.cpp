@@ -358,6 +358,23 @@ void require_tunable_formats(const ExportSettings& settings) {
                        "--to c; an FMU has its parameters tunable by itself");
 }
 
+/// Refuses to write C whose parameters can be set over C whose cannot, or the other way round: the
+/// files have the same names, and what was built from the others would no longer fit them.
+void require_alike_headers(const ExportSettings& settings, const std::vector<ExportedFile>& files) {
+  const auto is_settable = [](const std::string& text) {
+    return text.find("_defaults(") != std::string::npos;
+  };
+  for (const ExportedFile& file : files) {
+    const std::filesystem::path path = std::filesystem::path(settings.folder) / file.name;
+    if (path.extension() != ".h" || !std::filesystem::exists(path)) continue;
+    if (is_settable(read_file(path)) != is_settable(file.content))
+      throw Error(path.string(),
+                  std::string("is of an export ") + (settings.tunable ? "without" : "with") +
+                      " --tunable, whose C files this one would overwrite by others",
+                  "another --name or --output, or remove the files");
+  }
+}
+
 int run_export(const ExportSettings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
@@ -385,6 +402,7 @@ int run_export(const ExportSettings& settings, Console& console) {
 
   // All files are made before the first is written: an error leaves none behind.
   const std::vector<ExportedFile> files = exported_files(settings, options, console);
+  require_alike_headers(settings, files);
   Value list = Value::array();
   for (const ExportedFile& file : files) {
     const std::string path = (std::filesystem::path(settings.folder) / file.name).string();

@@ -94,6 +94,20 @@ TEST_CASE(
       "another damper"));
 }
 
+TEST_CASE("export writes no C over that of a model whose parameters can be set, nor the reverse") {
+  const TemporaryFolder folder;
+  const std::string words =
+      "export --parameters kwok2006 -o '" + folder.path().string() + "' --to ";
+  CHECK(run_dashpot(words + "c --tunable").exit_code == 0);
+  CHECK(run_dashpot(words + "c --tunable").exit_code == 0);
+  const ProgramResult mex = run_dashpot(words + "mex");
+  CHECK(mex.exit_code == 1);
+  CHECK(contains(mex.output, "is of an export with --tunable"));
+  CHECK(!fs::exists(folder.path() / "tanh_kwok_damper_mex.c"));
+  CHECK(run_dashpot(words + "mex --name other").exit_code == 0);
+  CHECK(contains(run_dashpot(words + "c --tunable --name other").output, "without --tunable"));
+}
+
 TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   const auto complains = [](const std::string& arguments, const std::string& of) {
     const ProgramResult result = run_dashpot("export " + arguments);
@@ -111,6 +125,7 @@ TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   complains(damper + "--to c --name 2x", "cannot begin names in C");
   complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
   complains(damper + "--to c --sample-time=-1ms", "sample time");
+  complains(damper + "--to modelica --name record", "'record' has a meaning of its own");
   complains(damper + "--to onnx --sample-time=soon", "--sample-time");
   complains(damper + "--to c --sample-time=5",
             "a sample time of 5 s; above 0 and at most 1 s, as 5ms");

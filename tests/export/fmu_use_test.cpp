@@ -257,7 +257,8 @@ TEST_CASE("FMU: wrong calls end in an error and a message") {
     CHECK(instance.enter_initialization() == 3);
     CHECK(instance.step(0, -kStep) == 3);
     CHECK(instance.step(0, kNan) == 3);
-    CHECK(says(instance, "is impossible"));
+    CHECK(instance.step(0, 1e9) == 3);
+    CHECK(says(instance, "a step of 1e+09 s is impossible"));
     CHECK(instance.step(1, kStep) == 3);
     CHECK(says(instance, "begins at 1 s but the last step ended at 0 s"));
     CHECK(fmu.call("SetTime", instance.handle, 0.0) == 3);

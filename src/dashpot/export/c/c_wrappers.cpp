@@ -1,6 +1,9 @@
 #include "dashpot/export/c/c_wrappers.h"
 
+#include <algorithm>
+
 #include "dashpot/base/escape.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
@@ -87,6 +90,30 @@ ar rcs Resources/Library/linux64/lib@name@.a @name@.o</pre>
 end @name@;
 )";
 
+/// What no package can be called: the keywords of Modelica 3.5 (2.3.3), its predefined types, and
+/// the library that the package uses.
+constexpr std::string_view kTakenInModelica[] = {
+    "algorithm",   "and",          "annotation", "block",       "break",
+    "class",       "connect",      "connector",  "constant",    "constrainedby",
+    "der",         "discrete",     "each",       "else",        "elseif",
+    "elsewhen",    "encapsulated", "end",        "enumeration", "equation",
+    "expandable",  "extends",      "external",   "false",       "final",
+    "flow",        "for",          "function",   "if",          "import",
+    "impure",      "in",           "initial",    "inner",       "input",
+    "loop",        "model",        "not",        "operator",    "or",
+    "outer",       "output",       "package",    "parameter",   "partial",
+    "protected",   "public",       "pure",       "record",      "redeclare",
+    "replaceable", "return",       "stream",     "then",        "true",
+    "type",        "when",         "while",      "within",      "Boolean",
+    "Integer",     "Modelica",     "Real",       "String",      "StateSelect",
+    "time"};
+
+void require_free_in_modelica(const std::string& name) {
+  if (std::ranges::find(kTakenInModelica, name) != std::end(kTakenInModelica))
+    throw Error("name", "'" + name + "' has a meaning of its own in Modelica: no package has it",
+                "as " + name + "_damper");
+}
+
 std::vector<std::pair<std::string, ModelicaText>> package_facts(const ExportedModel& model,
                                                                 const ExportOptions& options,
                                                                 const CSource& source) {
@@ -128,6 +155,7 @@ std::vector<ExportedFile> write_sfunction(const ExportedModel& model,
 
 std::vector<ExportedFile> write_modelica(const ExportedModel& model, const ExportOptions& options) {
   const CSource source = c_source(model, options);
+  require_free_in_modelica(source.prefix);
   std::vector<ExportedFile> files = with_wrapper(model, options, "modelica.h", "_modelica.h");
   for (ExportedFile& file : files) file.name = source.prefix + "/Resources/Include/" + file.name;
   files.push_back(

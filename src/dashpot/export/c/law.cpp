@@ -256,9 +256,11 @@ std::vector<CParameter> c_parameters(const LawModel& model) {
       row = {coefficient_name(info.name, form, index),
              coefficient_unit(info.unit, form, index, model.drive_unit()),
              std::string(info.meaning), values.coefficients[k][index]};
-      if (form == Form::Constant) {
-        row.lower = info.lower;
-        row.upper = info.upper;
+      // The first coefficient of a polynomial is the parameter itself at current 0; records at
+      // other currents may have left it beyond the bounds there.
+      if (is_polynomial(form) && index == 0) {
+        row.lower = std::min(info.lower, row.value);
+        row.upper = std::max(info.upper, row.value);
       }
     }
   }

@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kReferenceSteps = 500;
 
 constexpr const char* kCoSimulation =
-    "Any communication step is accepted. Between communication points the inputs are taken as "
+    "Any communication step up to a million sample times is accepted. Between communication points "
+    "the inputs are taken as "
     "linear, and steps longer than the sample time are made of several. A step ends with the "
     "inputs that are set after fmi2DoStep or fmi3DoStep and before the force is read; when none "
     "are set, with those of its start. So an importer that sets the inputs of an instant before it "

@@ -5,7 +5,7 @@
 
 #include "fmu_between.h"
 
-#define FMU_LONGEST_STEP HUGE_VAL
+#define FMU_LONGEST_STEP (1e6 * FMU_SAMPLE_TIME)
 
 typedef struct FmuState {
   double values[FMU_STATE_SIZE];
@@ -36,8 +36,8 @@ static void fmu_rest(const double* inputs, FmuState* state) {
 
 /* From one communication point to the next, in pieces of the sample time at most. */
 static void fmu_move(const double* from, const double* to, double dt, FmuState* state) {
-  const double most_pieces = 1e6, pieces = ceil((dt / FMU_SAMPLE_TIME) * (1.0 - 1e-9));
-  const int count = (pieces > 1) ? (int)fmin(pieces, most_pieces) : 1;
+  const double pieces = ceil((dt / FMU_SAMPLE_TIME) * (1.0 - 1e-9));
+  const int count = (pieces > 1) ? (int)pieces : 1;
   damper_input begin = fmu_input(from);
   int k;
   for (k = 1; k <= count; ++k) {
