@@ -142,6 +142,14 @@ TEST_CASE("rank --plant: a second order, by the ride, on the screen, in JSON and
   const std::vector<std::string> lines = split(csv, '\n');
   CHECK(contains(lines[0], ",ride_error_percent,ride_error_percent_low,"));
   CHECK(split(lines[0], ',').size() == split(lines[1], ',').size());
+
+  // The screen has the units that are asked for, of the ride as well.
+  const ProgramResult inches = stdout_of_dashpot(
+      rank_of("bingham,viscous_dahl", folder.path()) +
+      " --plant savaresi_spelta --controller skyhook --duration 2 --draws 2" + " --units lbf,in/s");
+  CHECK(contains(result.output, "a_w m/s^2"));
+  CHECK(contains(inches.output, "a_w in/s^2"));
+  CHECK(contains(read_file(folder.path() / "report.md"), "Travel in |"));
 }
 
 TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit" *

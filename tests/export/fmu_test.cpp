@@ -165,6 +165,18 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("FMU: what a parameter is at current 0 has its bounds, its slope over current none") {
+  pugi::xml_document document;
+  document.load_string(description_of("bouc_wen", 3).c_str());
+  const pugi::xml_node variables = document.child("fmiModelDescription").child("ModelVariables");
+  const auto variable = [&](const char* name) {
+    return variables.find_child_by_attribute("name", name);
+  };
+  CHECK(variable("parameter.c0_a").attribute("min").as_double(-1) == 0);
+  CHECK(variable("parameter.c0_a").attribute("max").as_double() == 1e8);
+  CHECK(variable("parameter.c0_b").attribute("min").empty());
+}
+
 TEST_CASE("FMU: units have their SI factors") {
   pugi::xml_document document;
   document.load_string(description_of("bouc_wen", 3).c_str());
