@@ -358,20 +358,26 @@ void require_tunable_formats(const ExportSettings& settings) {
                        "--to c; an FMU has its parameters tunable by itself");
 }
 
-/// Refuses to write C whose parameters can be set over C whose cannot, or the other way round: the
-/// files have the same names, and what was built from the others would no longer fit them.
+/// Refuses to write C whose parameters can be set over C whose cannot, or the other way round,
+/// where a file that goes with the other would be left: it would no longer fit its header.
 void require_alike_headers(const ExportSettings& settings, const std::vector<ExportedFile>& files) {
   const auto is_settable = [](const std::string& text) {
     return text.find("_defaults(") != std::string::npos;
   };
   for (const ExportedFile& file : files) {
     const std::filesystem::path path = std::filesystem::path(settings.folder) / file.name;
-    if (path.extension() != ".h" || !std::filesystem::exists(path)) continue;
-    if (is_settable(read_file(path)) != is_settable(file.content))
-      throw Error(path.string(),
-                  std::string("is of an export ") + (settings.tunable ? "without" : "with") +
-                      " --tunable, whose C files this one would overwrite by others",
-                  "another --name or --output, or remove the files");
+    if (path.extension() != ".h" || !std::filesystem::exists(path) ||
+        is_settable(read_file(path)) == is_settable(file.content))
+      continue;
+    for (const char* ending : {"_test.c", "_mex.c", "_sfun.c"}) {
+      const std::string left = path.stem().string() + ending;
+      const bool is_written = std::ranges::find(files, left, &ExportedFile::name) != files.end();
+      if (!is_written && std::filesystem::exists(path.parent_path() / left))
+        throw Error(path.string(),
+                    std::string("is of an export ") + (settings.tunable ? "without" : "with") +
+                        " --tunable, and " + left + ", which goes with it, would be left",
+                    "another --name or --output, or remove these files");
+    }
   }
 }
 
