@@ -188,10 +188,12 @@ class Identification(InFolder):
 
     def test_ctrl_c_interrupts(self):
         script = textwrap.dedent("""
-            import sys
+            import signal, sys
             sys.path.insert(0, %r)
             from test_identify import bench
             import dashpot
+            # A shell has whatever it starts in the background ignore Ctrl+C, these tests too.
+            signal.signal(signal.SIGINT, signal.default_int_handler)
             try:
                 dashpot.identify(bench(), "modified_bouc_wen", starts=100000,
                                  progress=lambda *_: print("at work", flush=True))
@@ -199,6 +201,7 @@ class Identification(InFolder):
                 print("interrupted", flush=True)
         """) % os.path.dirname(__file__)
         child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(child.kill)
         self.assertEqual(child.stdout.readline(), "at work\n")
         child.send_signal(signal.SIGINT)
         self.assertIn("interrupted", child.communicate(timeout=60)[0])

@@ -38,13 +38,6 @@ inline Interval operator*(const Interval& a, const Interval& b) {
 inline Interval operator/(const Interval& a, const Interval& b) {
   return a * outwards(1 / b.high, 1 / b.low);
 }
-/// a times or by a double above 0: the same, in fewer operations.
-inline Interval scaled(double factor, const Interval& a) {
-  return factor == 1 ? a : outwards(factor * a.low, factor * a.high);
-}
-inline Interval shared(const Interval& a, double divisor) {
-  return divisor == 1 ? a : outwards(a.low / divisor, a.high / divisor);
-}
 inline Interval& operator+=(Interval& a, const Interval& b) { return a = a + b; }
 inline Interval& operator-=(Interval& a, const Interval& b) { return a = a - b; }
 

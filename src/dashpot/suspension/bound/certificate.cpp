@@ -140,7 +140,7 @@ double proven_least(const ForceRange& range, const ForceLimit& limit) {
 // polynomial, from the start of its piece to the end.
 
 template <std::size_t N>
-using Bernstein = std::array<Interval, N>;
+using Bernstein = std::array<Summed, N>;
 
 /// Rows of Pascal's triangle, up to the highest degree here.
 constexpr double kBinomial[5][5] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}};
@@ -151,7 +151,7 @@ Bernstein<N + M - 1> product(const Bernstein<N>& a, const Bernstein<M>& b) {
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j < M; ++j)
       out[i + j] += scaled(kBinomial[N - 1][i] * kBinomial[M - 1][j], a[i] * b[j]);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = shared(out[k], kBinomial[N + M - 2][k]);
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = scaled(1 / kBinomial[N + M - 2][k], out[k]);
   return out;
 }
 
@@ -163,21 +163,21 @@ Bernstein<N> raised(const Bernstein<M>& p) {
   for (std::size_t k = 0; k < N; ++k) {
     for (std::size_t i = k > kMore ? k - kMore : 0; i < M && i <= k; ++i)
       out[k] += scaled(kBinomial[M - 1][i] * kBinomial[kMore][k - i], p[i]);
-    out[k] = shared(out[k], kBinomial[N - 1][k]);
+    out[k] = scaled(1 / kBinomial[N - 1][k], out[k]);
   }
   return out;
 }
 
 /// sum += factor p, p written with the higher degree of the sum.
 template <std::size_t N, std::size_t M>
-void add(Bernstein<N>& sum, const Interval& factor, const Bernstein<M>& p) {
+void add(Bernstein<N>& sum, const Summed& factor, const Bernstein<M>& p) {
   static_assert(M <= N);
-  if (factor.low == 0 && factor.high == 0) return;  // as much of a car's motion is
+  if (factor.size == 0) return;  // as much of a car's motion is
   if constexpr (M == N) {
     for (std::size_t k = 0; k < N; ++k) sum[k] += factor * p[k];
   } else if constexpr (M == 1) {
-    const Interval same = factor * p[0];
-    for (Interval& one : sum) one += same;
+    const Summed same = factor * p[0];
+    for (Summed& one : sum) one += same;
   } else {
     add(sum, factor, raised<N>(p));
   }
@@ -197,30 +197,31 @@ bool is_positive(std::array<std::array<Interval, N>, N> form) {
   return true;
 }
 
+bool is_moderate(double number) { return std::abs(number) < Summed::kGreatest; }
 bool is_moderate(const StateForm& form) {
-  constexpr double kGreatest = 1e60;  // products of a few of these do not overflow
-  for (const double entry : form.values)
-    if (!(std::abs(entry) < kGreatest)) return false;
-  return true;
+  return std::ranges::all_of(form.values, [](double entry) { return is_moderate(entry); });
 }
 
 }  // namespace
 
 /// V over a piece: Bernstein coefficients of each entry of P in [j][i], i <= j.
 struct Certificate::Cubic {
-  std::array<std::array<Bernstein<4>, 5>, 5> entries;
+  std::array<std::array<std::array<double, 4>, 5>, 5> entries;
   std::array<std::array<Bernstein<5>, 5>, 5> raised{};  // the same, written with degree 4
 
-  const Bernstein<4>& at(std::size_t i, std::size_t j) const {
-    return i <= j ? entries[j][i] : entries[i][j];
+  Bernstein<4> at(std::size_t i, std::size_t j) const {
+    const std::array<double, 4>& p = i <= j ? entries[j][i] : entries[i][j];
+    return {p[0], p[1], p[2], p[3]};
   }
   const Bernstein<5>& raised_at(std::size_t i, std::size_t j) const {
     return i <= j ? raised[j][i] : raised[i][j];
   }
+  /// Differences lose next to nothing to roundings, which are large beside them.
   Bernstein<3> rate(std::size_t i, std::size_t j, const Interval& duration) const {
-    const Bernstein<4>& p = at(i, j);
+    const std::array<double, 4>& p = entries[j][i];
     const Interval factor = Interval(3) / duration;
-    return {factor * (p[1] - p[0]), factor * (p[2] - p[1]), factor * (p[3] - p[2])};
+    return {factor * (Interval(p[1]) - p[0]), factor * (Interval(p[2]) - p[1]),
+            factor * (Interval(p[3]) - p[2])};
   }
 };
 
@@ -233,6 +234,7 @@ Certificate::Certificate(const Plant& plant, const SampledPlant& car, const Forc
     limits_.push_back(std::isfinite(least) ? std::optional(limit) : std::nullopt);
   }
   set_car(plant);
+  if (!car_is_moderate()) std::ranges::fill(limits_, std::nullopt);
 }
 
 void Certificate::set_car(const Plant& plant) {
@@ -243,17 +245,17 @@ void Certificate::set_car(const Plant& plant) {
 
   // M q'' = -K q - C q' - row F + tyre P, by Cramer's rule for M.
   const auto& m = plant.mass;
-  const Interval scale = Interval(1) / (Interval(m[0]) * m[3] - Interval(m[1]) * m[2]);
-  const Interval over_mass[2][2] = {{scale * m[3], scale * -m[1]}, {scale * -m[2], scale * m[0]}};
+  const Summed scale = Interval(1) / (Interval(m[0]) * m[3] - Interval(m[1]) * m[2]);
+  const Summed over_mass[2][2] = {{scale * m[3], scale * -m[1]}, {scale * -m[2], scale * m[0]}};
   for (std::size_t i = 0; i < 2; ++i) {
     motion_[i][i + 2] = 1;
     for (std::size_t l = 0; l < 2; ++l) {
       for (std::size_t j = 0; j < 2; ++j) {
-        const Interval row = Interval(tyre.row[l]) * tyre.row[j];
+        const Summed row = Summed(tyre.row[l]) * tyre.row[j];
         motion_[i + 2][j] -=
-            over_mass[i][l] * (Interval(plant.stiffness[2 * l + j]) + row * stiffness_);
+            over_mass[i][l] * (Summed(plant.stiffness[2 * l + j]) + row * stiffness_);
         motion_[i + 2][j + 2] -=
-            over_mass[i][l] * (Interval(plant.damping[2 * l + j]) + row * damping_);
+            over_mass[i][l] * (Summed(plant.damping[2 * l + j]) + row * damping_);
       }
       by_force_[i + 2] -= over_mass[i][l] * strut.row[l];
       by_push_[i + 2] += over_mass[i][l] * tyre.row[l];
@@ -266,11 +268,20 @@ void Certificate::set_car(const Plant& plant) {
 
   // The body's acceleration is a sum of these rows.
   for (std::size_t l = 0; l < 2; ++l) {
-    const Interval share = strut.body_row[l];
+    const Summed share = strut.body_row[l];
     for (std::size_t j = 0; j < 4; ++j) acceleration_[j] += share * motion_[l + 2][j];
     acceleration_by_force_ += share * by_force_[l + 2];
     acceleration_by_push_ += share * by_push_[l + 2];
   }
+}
+
+bool Certificate::car_is_moderate() const {
+  const auto are = [](const auto& numbers) {
+    return std::ranges::all_of(numbers, [](const Summed& a) { return is_moderate(a.size); });
+  };
+  return std::ranges::all_of(motion_, are) && are(by_force_) && are(by_push_) &&
+         are(acceleration_) && are(tyre_force_) && are(speed_) && are(displacement_) &&
+         are(std::array{acceleration_by_force_, acceleration_by_push_, stiffness_, damping_});
 }
 
 bool Certificate::back_to(double into, const StateForm& value, const StateForm& slope,
@@ -285,7 +296,7 @@ bool Certificate::back_to(double into, const StateForm& value, const StateForm& 
     for (std::size_t i = 0; i <= j; ++i) {
       cubic.entries[j][i] = {value(i, j), value(i, j) + third * slope(i, j),
                              value_(i, j) - third * slope_at_end(i, j), value_(i, j)};
-      add(cubic.raised[j][i], 1, cubic.entries[j][i]);
+      add(cubic.raised[j][i], 1, cubic.at(i, j));
     }
   if (!holds(cubic, into, into_)) return false;
 
@@ -304,34 +315,36 @@ bool Certificate::back_to(double into, const StateForm& value, const StateForm& 
 bool Certificate::holds(const Cubic& value, double from, double to) const {
   const Interval duration = Interval(to) - Interval(from);
   const ForceLimit& limit = *limits_[cell_ / course_.block];
-  const Interval comfort = index_.comfort, holding = index_.holding, half = 0.5;
-  const Interval &a_f = acceleration_by_force_, &a_w = acceleration_by_push_;
+  const Summed comfort = index_.comfort, holding = index_.holding, half = 0.5;
+  const Summed &a_f = acceleration_by_force_, &a_w = acceleration_by_push_;
 
   // The tyre's push by the road, a straight line.
   const auto& road = car_.road(cell_);
   const auto push_at = [&](double into) {
-    return stiffness_ * (Interval(road.height) + Interval(road.slope) * into) +
-           damping_ * road.slope;
+    return stiffness_ * (Summed(road.height) + Summed(road.slope) * into) + damping_ * road.slope;
   };
   const Bernstein<2> push{push_at(from), push_at(to)};
 
   // The form's column of the force: by the state, by 1 and by itself.
-  const Interval force_force = comfort * a_f * a_f - limit.ff;
-  if (!(force_force.low > 0)) return false;
+  const Summed force_force = comfort * a_f * a_f - limit.ff;
+  if (!(force_force.interval().low > 0)) return false;
   std::array<Bernstein<4>, 5> force{};
   for (std::size_t i = 0; i < 5; ++i) {
     for (std::size_t l = 2; l < 4; ++l) add(force[i], by_force_[l], value.at(i, l));
-    const Interval fixed = i < 4 ? comfort * acceleration_[i] * a_f -
-                                       half * (speed_[i] * limit.fv + displacement_[i] * limit.fx)
-                                 : -(half * Interval(limit.f));
+    const Summed fixed = i < 4 ? comfort * acceleration_[i] * a_f -
+                                     half * (speed_[i] * limit.fv + displacement_[i] * limit.fx)
+                               : -(half * limit.f);
     add(force[i], fixed, Bernstein<1>{1});
   }
   add(force[4], comfort * a_w * a_f, push);
 
   // A law that takes this column away but for what curves: any law would do.
   std::array<Bernstein<2>, 5> law;
-  for (std::size_t i = 0; i < 5; ++i)
-    law[i] = {-force[i].front().low / force_force.low, -force[i].back().low / force_force.low};
+  for (std::size_t i = 0; i < 5; ++i) {
+    law[i] = {-force[i].front().value / force_force.value,
+              -force[i].back().value / force_force.value};
+    if (!is_moderate(law[i].front().size) || !is_moderate(law[i].back().size)) return false;
+  }
 
   // The form over the state and 1, with the force counted from that law, and its column then.
   std::array<std::array<Bernstein<5>, 6>, 6> form{};
@@ -377,7 +390,7 @@ bool Certificate::holds(const Cubic& value, double from, double to) const {
   for (std::size_t k = 0; k < 5; ++k) {
     std::array<std::array<Interval, 6>, 6> at;
     for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t j = 0; j <= i; ++j) at[i][j] = form[i][j][k];
+      for (std::size_t j = 0; j <= i; ++j) at[i][j] = form[i][j][k].interval();
     if (!is_positive(at)) return false;
   }
   return true;

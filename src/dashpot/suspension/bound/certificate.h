@@ -3,13 +3,14 @@
 #include <optional>
 #include <vector>
 
-#include "dashpot/numerics/interval.h"
+#include "dashpot/numerics/summed.h"
 #include "dashpot/plant.h"
 #include "dashpot/suspension/bound/force_range.h"
 #include "dashpot/suspension/bound/sampled_plant.h"
 
-// The proof of a bound, in interval arithmetic. It relies on nothing that the search or the Riccati
-// equation claim: both only propose, what is not proven here is refused.
+// The proof of a bound, in intervals and sums whose roundings are bounded. It relies on nothing
+// that the search or the Riccati equation claim: both only propose, what is not proven here is
+// refused.
 
 namespace dashpot {
 
@@ -63,6 +64,7 @@ class Certificate {
   struct Cubic;
   bool holds(const Cubic& value, double from, double to) const;
   void set_car(const Plant& plant);
+  bool car_is_moderate() const;
 
   const SampledPlant& car_;
   const RideIndex& index_;
@@ -75,9 +77,9 @@ class Certificate {
   StateForm value_;
 
   // The car over [q, q'], by the force and by the tyre's push.
-  std::array<std::array<Interval, 4>, 4> motion_;
-  std::array<Interval, 4> by_force_, by_push_, acceleration_, tyre_force_, speed_, displacement_;
-  Interval acceleration_by_force_, acceleration_by_push_, stiffness_, damping_;
+  std::array<std::array<Summed, 4>, 4> motion_;
+  std::array<Summed, 4> by_force_, by_push_, acceleration_, tyre_force_, speed_, displacement_;
+  Summed acceleration_by_force_, acceleration_by_push_, stiffness_, damping_;
 };
 
 }  // namespace dashpot
