@@ -72,7 +72,8 @@ TEST_CASE("compare: models over recordings, with fit; a warning where these taug
   CHECK(contains(seen.output, "was taught by 8 records"));
 }
 
-TEST_CASE("compare says where recordings leave the range that a model knows") {
+TEST_CASE("compare says where recordings leave the range that a model knows" *
+          doctest::test_suite("long")) {
   const Campaigns& all = campaigns();
   const TemporaryFolder folder;
   const std::string firm = (folder.path() / "firm").string();

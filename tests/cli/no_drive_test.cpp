@@ -145,7 +145,8 @@ TEST_CASE("recordings with and without a drive are not one dataset, and it is sa
   CHECK(contains(none.output, "'drive: none' in dataset.yaml"));
 }
 
-TEST_CASE("a model and recordings of different kinds of drive are refused with the remedy") {
+TEST_CASE("a model and recordings of different kinds of drive are refused with the remedy" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   folder.write("driven_1A.csv", csv_of(bench().records.front()));
   const ProgramResult driven =

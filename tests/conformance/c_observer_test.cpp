@@ -5,7 +5,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("exported C of an observer: the library's estimates in double and single precision") {
+TEST_CASE("exported C of an observer: the library's estimates in double and single precision" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& stem, const ExampleObserver& example) {
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {

@@ -10,6 +10,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/model_file.h"
+#include "sanitized.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -193,7 +194,7 @@ TEST_CASE("a law with a filter twice as quick as its set allows feeds energy in"
 }
 
 TEST_CASE("a passive network takes energy out, whatever its numbers are") {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= (kSanitized ? 2 : 10); ++seed) {
     const PassiveNetworkModel model("passive_network", {example_passive_network(seed, 1.5)});
     CHECK(dissipation(model, kCar).dissipates());
   }

@@ -370,7 +370,8 @@ TEST_CASE("several dampers watched: a chart each, which share the stated rate") 
   CHECK(first_alarm_of(both) == &both[0]);
 }
 
-TEST_CASE("several dampers watched: any alarm of healthy days as often as is stated") {
+TEST_CASE("several dampers watched: any alarm of healthy days as often as is stated" *
+          doctest::test_suite("long")) {
   const WatchedPlant watched = watched_rig(two_dampers(kLowAndHigh, kBothMasses));
   const WatchOptions options{
       .wears = {"force"},

@@ -33,7 +33,7 @@ LawModel spencer_si() {
 
 }  // namespace
 
-TEST_CASE("Spencer's set in cm and in SI give the forces of TC-4.5") {
+TEST_CASE("Spencer's set in cm and in SI give the forces of TC-4.5" * doctest::test_suite("long")) {
   const std::vector<std::pair<double, std::vector<double>>> printed{
       {0, {385.72013, 65.404021, -617.25625, -529.92749, 473.07619, 65.433473}},
       {1.5, {1069.1411, 21.86209, -1336.465, -1212.1764, 1193.4801, 21.86209}},
@@ -56,7 +56,7 @@ TEST_CASE("the states of TC-4.5 at 1.5 V") {
   CHECK_CLOSE(at_50_ms[2], 1.4998877, 0, 1e-7);
 }
 
-TEST_CASE("the cycle of TC-4.5: energy and extreme forces") {
+TEST_CASE("the cycle of TC-4.5: energy and extreme forces" * doctest::test_suite("long")) {
   struct Cycle {
     double voltage, highest, lowest, energy;
   };

@@ -145,7 +145,7 @@ TEST_CASE("error, gradient and normal matrix agree with evaluate() and its diffe
 /// Without the decay that guards real fits against invented forces, and to the end.
 const TrainOptions kToTheNoise{.max_iterations = 200, .tolerance = 1e-7, .weight_decay = 1e-8};
 
-TEST_CASE("training reaches the noise and finds the offsets") {
+TEST_CASE("training reaches the noise and finds the offsets" * doctest::test_suite("long")) {
   const TrainingSamples samples = noisy_damper(6000);
   Mlp mlp = damper_network();
   const TrainReport report = train(mlp, samples, kToTheNoise);

@@ -67,7 +67,7 @@ double spread_of(const Dataset& data) {
 
 }  // namespace
 
-TEST_CASE("a gated family predicts geometries that it has not seen") {
+TEST_CASE("a gated family predicts geometries that it has not seen" * doctest::test_suite("long")) {
   const Ranking ranking =
       rank({"family_gated"}, family_data(0), parse_leave_out("each=gap,pole_length"),
            {.offset = OffsetMode::None});

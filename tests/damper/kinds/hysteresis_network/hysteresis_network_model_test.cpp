@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
+#include "sanitized.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -49,7 +50,7 @@ TEST_CASE("the force is the members' mean and the offset") {
   CHECK_FALSE(both.needs_displacement());
 }
 
-TEST_CASE("a million random steps of any size stay within the bound that the weights give") {
+TEST_CASE("random steps of any size stay within the bound that the weights give") {
   const HysteresisNetwork member = example_hysteresis_network();
   const HysteresisNetworkModel model("test", {member});
   std::vector<double> state(model.state_size());
@@ -61,7 +62,7 @@ TEST_CASE("a million random steps of any size stay within the bound that the wei
   DamperInput from;
   model.rest(from, state);
   std::size_t outside = 0;
-  for (int k = 0; k < 1'000'000; ++k) {
+  for (int k = 0; k < (kSanitized ? 50'000 : 1'000'000); ++k) {
     const DamperInput to{0, any(-60, 60), any(-60, 60)};
     model.advance(from, to, std::abs(any(-9, 6)), state);
     outside += !(std::abs(model.force(to, state)) <= bound && std::abs(state[0]) <= 1 + 1e-15);
