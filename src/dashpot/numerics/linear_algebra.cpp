@@ -17,9 +17,7 @@ namespace dashpot {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
-using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 // What comes in and goes out lies row by row; in here all matrices are of one type, since Eigen's
@@ -47,15 +45,16 @@ std::vector<double> values_of(const MatrixXd& matrix) {
   return values;
 }
 
-/// [V1; V2]: eigenvectors of the Hamiltonian's eigenvalues left of the imaginary axis.
-MatrixXcd stable_subspace(const MatrixXd& hamiltonian) {
+/// [V1; V2]: a basis of the subspace of the Hamiltonian's eigenvalues left of the imaginary axis. A
+/// pair of complex eigenvectors stands as its real and its imaginary part, which span the same.
+MatrixXd stable_subspace(const MatrixXd& hamiltonian) {
   const Eigen::EigenSolver<MatrixXd> solver(hamiltonian);
+  const MatrixXd vectors = solver.pseudoEigenvectors();
   const Index n = hamiltonian.rows() / 2;
-  MatrixXcd stable(2 * n, n);
+  MatrixXd stable(2 * n, n);
   Index found = 0;
   for (Index k = 0; k < 2 * n; ++k)
-    if (solver.eigenvalues()[k].real() < 0 && found < n)
-      stable.col(found++) = solver.eigenvectors().col(k);
+    if (solver.eigenvalues()[k].real() < 0 && found < n) stable.col(found++) = vectors.col(k);
   if (found < n) throw Error("regulator", "a mode is neither damped nor reached by the input");
   return stable;
 }
@@ -134,11 +133,25 @@ std::vector<double> solve(std::span<const double> matrix, std::span<const double
 
 std::vector<std::complex<double>> solve(std::span<const std::complex<double>> matrix,
                                         std::span<const std::complex<double>> right) {
-  assert(matrix.size() == right.size() * right.size());
-  const auto n = static_cast<Index>(right.size());
-  const MatrixXcd columns = MatrixXcd::Map(matrix.data(), n, n).transpose();
-  const VectorXcd x = columns.partialPivLu().solve(VectorXcd::Map(right.data(), n));
-  return {x.begin(), x.end()};
+  // Real parts above imaginary ones: twice as large, but nothing complex to compile.
+  const std::size_t n = right.size();
+  assert(matrix.size() == n * n);
+  std::vector<double> apart(4 * n * n), sides(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    sides[i] = right[i].real();
+    sides[n + i] = right[i].imag();
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::complex<double> entry = matrix[i * n + j];
+      apart[2 * n * i + j] = apart[2 * n * (n + i) + n + j] = entry.real();
+      apart[2 * n * (n + i) + j] = entry.imag();
+      apart[2 * n * i + n + j] = -entry.imag();
+    }
+  }
+
+  const std::vector<double> solved = solve(apart, sides);
+  std::vector<std::complex<double>> x(n);
+  for (std::size_t i = 0; i < n; ++i) x[i] = {solved[i], solved[n + i]};
+  return x;
 }
 
 std::vector<double> solve_columns(std::span<const double> matrix, std::span<const double> right,
@@ -255,9 +268,9 @@ std::vector<double> regulator_gain(const RegulatorProblem& p) {
   // by column: P V1 = V2.
   MatrixXd hamiltonian(2 * n, 2 * n);
   hamiltonian << a, -b * r.solve(b.transpose()), -q, -a.transpose();
-  const MatrixXcd stable = stable_subspace(hamiltonian);
-  const MatrixXd cost =
-      stable.topRows(n).transpose().partialPivLu().solve(stable.bottomRows(n).transpose()).real();
+  const MatrixXd stable = stable_subspace(hamiltonian);
+  const Eigen::PartialPivLU<MatrixXd> upper(stable.topRows(n).transpose());
+  const MatrixXd cost = upper.solve(stable.bottomRows(n).transpose());
   return values_of(r.solve(b.transpose() * cost.transpose() + cross.transpose()));
 }
 
