@@ -110,7 +110,7 @@ TEST_CASE("a damper alike in both directions keeps the bits of its fit" *
 }
 
 TEST_CASE("a law with its directions apart is written and read, and its valve can be chosen") {
-  const FitReport fit = fit_of("bouc_wen", 0.4, {.asymmetric = true}, 60);
+  const FitReport fit = fit_of("bouc_wen", 0.4, {.asymmetric = true}, 100);
   const Value json = fit.model->to_json();
   const std::unique_ptr<LawModel> read = law_model_from_json(parse_json(format_json(json), "test"));
   CHECK(format_json(read->to_json()) == format_json(json));
