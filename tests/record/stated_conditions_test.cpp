@@ -90,6 +90,14 @@ TEST_CASE("columns of a manifest are conditions, by their names with a unit or a
   CHECK_CLOSE(condition(data.records[1], "temperature"), 299.15, 1e-12, 0);
 }
 
+TEST_CASE("a column of what no drawing has is a condition too") {
+  const TemporaryFolder folder;
+  write_campaign(folder,
+                 "file,spring_stiffness [N/mm],yield_stress [kPa]\na_0A.csv,2,0\nb_1A.csv,2,30\n");
+  const Dataset data = load_dataset({folder.path()});
+  CHECK(condition(data.records.front(), "spring_stiffness") == 2000);
+}
+
 TEST_CASE("a manifest with semicolons and decimal commas; a build; what it states in vain") {
   const TemporaryFolder folder;
   write_campaign(folder,

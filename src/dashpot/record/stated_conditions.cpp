@@ -85,9 +85,14 @@ void StatedConditions::add_column(Record& record, const SourcePath& file,
                                   const Column& column) const {
   if (find_condition_of(record, column.condition)) return;
   const double value = column.factor * manifest_->number(file, column.title) + column.offset;
-  if (std::ranges::find(kConditions, column.condition, &ConditionUnit::name) !=
-      std::end(kConditions))
-    require_within(value, find_description_field(column.condition, manifest_->path()),
+
+  // What a drawing has too is held to its bounds.
+  const auto fields = description_fields();
+  const auto drawn = std::ranges::find(fields, column.condition, &DescriptionField::name);
+  const bool is_known = std::ranges::find(kConditions, column.condition, &ConditionUnit::name) !=
+                        std::end(kConditions);
+  if (is_known && drawn != fields.end())
+    require_within(value, *drawn,
                    manifest_->path() + ", column '" + column.title + "', " + file.relative);
   record.conditions.emplace_back(column.condition, value);
 }
