@@ -365,10 +365,13 @@ void require_alike_headers(const ExportSettings& settings, const std::vector<Exp
     return text.find("_defaults(") != std::string::npos;
   };
   for (const ExportedFile& file : files) {
+    // A header that would take the place of one of the other kind.
     const std::filesystem::path path = std::filesystem::path(settings.folder) / file.name;
     if (path.extension() != ".h" || !std::filesystem::exists(path) ||
         is_settable(read_file(path)) == is_settable(file.content))
       continue;
+
+    // Whatever goes with that one, and is not written anew.
     for (const char* ending : {"_test.c", "_mex.c", "_sfun.c"}) {
       const std::string left = path.stem().string() + ending;
       const bool is_written = std::ranges::find(files, left, &ExportedFile::name) != files.end();

@@ -332,6 +332,8 @@ std::string watch_csv(const Watched& watched, const PrintUnits& units) {
   for (std::size_t d = 0; d < watched.days.size(); ++d) {
     const WatchedDay& day = watched.days[d];
     const auto add = [&](double value) { text += ',' + format_number(value, 9); };
+
+    // What is watched in its unit; scores and sums have none.
     text += csv_field(day.estimate.name);
     for (const WatchedQuantity& q : watched.quantities) {
       const ChartPoint& point = q.chart.points[d];
@@ -342,6 +344,8 @@ std::string watch_csv(const Watched& watched, const PrintUnits& units) {
       add(point.score);
       add(point.sum);
     }
+
+    // Beside it the plant's numbers, what is known of the day, and what is said of it.
     for (const double value : day.estimate.plant) add(value);
     for (const double value : day.known) add(value);
     text += ',' + csv_field(watched.remark(d)) + '\n';

@@ -108,6 +108,8 @@ void read_yield(const Value& value, FluidLaw& law) {
   if ((polynomial != nullptr) == (points != nullptr))
     throw Error(value.where(), "the yield stress over the field is not stated once",
                 "either points or polynomial");
+
+  // Points must rise, and be those of a fluid; so must a polynomial, up to where it ends.
   if (points) {
     law.yield_stresses = read_points(*points, "A/m", "Pa");
     require_rising(law.yield_stresses, *points, "the yield stress", false);

@@ -191,11 +191,14 @@ class Loader {
     try {
       load_sound_file(file);
     } catch (const Error& error) {
+      // What is stated wrongly is no fault of the file.
       const std::string why = error.what();
       const bool of_statement =
           (!sources_.stated.path.empty() && why.starts_with(sources_.stated.path + ":")) ||
           (!manifest_.empty() && why.starts_with(manifest_.path()));
       if (file.named || of_statement) throw;
+
+      // As if it had not been begun.
       dataset_.records.resize(records);
       origins_.resize(origins);
       name_rests_.resize(records);

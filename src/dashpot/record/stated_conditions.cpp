@@ -50,6 +50,8 @@ StatedConditions::StatedConditions(const Manifest& manifest, fs::path folder)
       known_.insert(title);
     }
     if (title == kBuild) add_build_column();
+
+    // A quantity, by the longest of the names that begin its title; its unit stands behind.
     for (const ConditionUnit& known : kConditions) {
       if (!lower(title).starts_with(known.name)) continue;
       const std::string unit = unit_behind(title, known.name);

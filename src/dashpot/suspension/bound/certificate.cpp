@@ -201,6 +201,11 @@ bool is_moderate(double number) { return std::abs(number) < Summed::kGreatest; }
 bool is_moderate(const StateForm& form) {
   return std::ranges::all_of(form.values, [](double entry) { return is_moderate(entry); });
 }
+bool is_moderate(const ForceLimit& limit) {
+  return std::ranges::all_of(std::array{limit.ff, limit.fv, limit.vv, limit.f, limit.v, limit.fx,
+                                        limit.vx, limit.x, limit.one},
+                             [](double coefficient) { return is_moderate(coefficient); });
+}
 
 }  // namespace
 
@@ -231,10 +236,11 @@ Certificate::Certificate(const Plant& plant, const SampledPlant& car, const Forc
   for (ForceLimit limit : course.limits) {
     const double least = proven_least(range, limit);
     limit.one = -least;
-    limits_.push_back(std::isfinite(least) ? std::optional(limit) : std::nullopt);
+    limits_.push_back(is_moderate(limit) ? std::optional(limit) : std::nullopt);
   }
   set_car(plant);
-  if (!car_is_moderate()) std::ranges::fill(limits_, std::nullopt);
+  if (!car_is_moderate() || !is_moderate(index.comfort) || !is_moderate(index.holding))
+    std::ranges::fill(limits_, std::nullopt);
 }
 
 void Certificate::set_car(const Plant& plant) {
@@ -324,6 +330,7 @@ bool Certificate::holds(const Cubic& value, double from, double to) const {
     return stiffness_ * (Summed(road.height) + Summed(road.slope) * into) + damping_ * road.slope;
   };
   const Bernstein<2> push{push_at(from), push_at(to)};
+  if (!is_moderate(push[0].size) || !is_moderate(push[1].size)) return false;
 
   // The form's column of the force: by the state, by 1 and by itself.
   const Summed force_force = comfort * a_f * a_f - limit.ff;
