@@ -101,6 +101,17 @@ class StatefulEnsemble : public DamperModel {
   std::size_t state_size_ = 0;
 };
 
+/// A range that a member has seen, in files: [low, high].
+inline Value range_value(double low, double high) {
+  return Value::array(std::vector<double>{low, high});
+}
+inline void read_range(ObjectReader& reader, const char* key, double& low, double& high) {
+  const std::vector<double> ends = reader.required(key).as_numbers();
+  if (ends.size() != 2) throw Error(reader.required(key).where(), "is not a range", "two numbers");
+  low = ends[0];
+  high = ends[1];
+}
+
 /// Reads what to_json() wrote; `what` names the model in errors. Throws Error.
 template <class Model, class ReadMember>
 std::unique_ptr<Model> stateful_ensemble_from_json(const Value& value, const char* what,

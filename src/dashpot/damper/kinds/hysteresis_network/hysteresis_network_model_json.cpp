@@ -4,7 +4,7 @@
 namespace dashpot {
 namespace {
 
-HysteresisNetwork read_member(const Value& value) {
+HysteresisNetwork read_hysteresis_network(const Value& value) {
   ObjectReader reader(value, "a member");
   HysteresisNetwork member;
   member.bank.path_rates = reader.required("path_rates").as_numbers();
@@ -27,7 +27,7 @@ Value HysteresisNetwork::to_json() const {
 
 std::unique_ptr<HysteresisNetworkModel> hysteresis_network_model_from_json(const Value& value) {
   return stateful_ensemble_from_json<HysteresisNetworkModel>(value, "a hysteresis network",
-                                                             read_member);
+                                                             read_hysteresis_network);
 }
 
 }  // namespace dashpot

@@ -5,7 +5,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::array<HysteresisNetworkPreset, 1> kPresets{{
+constexpr std::array<HysteresisNetworkPreset, 1> kHysteresisPresets{{
     {.name = "hysteresis_network",
      .title = "Hysteresis-bank network, one sensor",
      .equation = "F = mean of members of  sum_j (sum_k G_jk c_k(u)) t_j,\n"
@@ -36,6 +36,6 @@ ModelInfo HysteresisNetworkPreset::info() const {
           remarks, {"velocity", "current"}};
 }
 
-std::span<const HysteresisNetworkPreset> hysteresis_network_presets() { return kPresets; }
+std::span<const HysteresisNetworkPreset> hysteresis_network_presets() { return kHysteresisPresets; }
 
 }  // namespace dashpot

@@ -6,15 +6,6 @@
 namespace dashpot {
 namespace {
 
-Value range(double low, double high) { return Value::array(std::vector<double>{low, high}); }
-
-void read_range(ObjectReader& reader, const char* key, double& low, double& high) {
-  const std::vector<double> ends = reader.required(key).as_numbers();
-  if (ends.size() != 2) throw Error(reader.required(key).where(), "is not a range", "two numbers");
-  low = ends[0];
-  high = ends[1];
-}
-
 /// The parts of the numbers by their names in files, in their order.
 struct Part {
   const char* name;
@@ -50,7 +41,7 @@ std::size_t count_of(ObjectReader& reader, const char* key, std::size_t most) {
   return static_cast<std::size_t>(count);
 }
 
-PassiveNetwork read_member(const Value& value) {
+PassiveNetwork read_passive_network(const Value& value) {
   ObjectReader reader(value, "a passive network");
   // Earlier ones read the drive in another way, which nothing computes any more.
   if (value.find("levers") && !value.find("drive_fade"))
@@ -94,22 +85,23 @@ PassiveNetwork read_member(const Value& value) {
 
 Value PassiveNetwork::to_json() const {
   const auto count = [](std::size_t n) { return static_cast<double>(n); };
-  Value out = Value::object({{"springs", count(sizes.springs)},
-                             {"memories", count(sizes.memories)},
-                             {"hidden", count(sizes.neurons)},
-                             {"viscous_hidden", count(sizes.viscous_neurons)},
-                             {"lags", lags},
-                             {"inert", inert},
-                             {"displacement_mean", displacement_mean},
-                             {"displacement_scale", displacement_scale},
-                             {"displacement_range", range(displacement_low, displacement_high)},
-                             {"velocity_scale", velocity_scale},
-                             {"velocity_range", range(velocity_low, velocity_high)},
-                             {"drive_scale", drive_scale},
-                             {"drive_range", range(drive_low, drive_high)},
-                             {"drive_fade", drive_fade},
-                             {"force_scale", force_scale},
-                             {"model_step", model_step}});
+  Value out =
+      Value::object({{"springs", count(sizes.springs)},
+                     {"memories", count(sizes.memories)},
+                     {"hidden", count(sizes.neurons)},
+                     {"viscous_hidden", count(sizes.viscous_neurons)},
+                     {"lags", lags},
+                     {"inert", inert},
+                     {"displacement_mean", displacement_mean},
+                     {"displacement_scale", displacement_scale},
+                     {"displacement_range", range_value(displacement_low, displacement_high)},
+                     {"velocity_scale", velocity_scale},
+                     {"velocity_range", range_value(velocity_low, velocity_high)},
+                     {"drive_scale", drive_scale},
+                     {"drive_range", range_value(drive_low, drive_high)},
+                     {"drive_fade", drive_fade},
+                     {"force_scale", force_scale},
+                     {"model_step", model_step}});
   for (const Part& part : parts(sizes)) {
     const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(part.first);
     out.add(part.name, Value::array(std::vector<double>(
@@ -120,7 +112,7 @@ Value PassiveNetwork::to_json() const {
 
 std::unique_ptr<PassiveNetworkModel> passive_network_model_from_json(const Value& value) {
   return stateful_ensemble_from_json<PassiveNetworkModel>(value, "a passive network model",
-                                                          read_member);
+                                                          read_passive_network);
 }
 
 }  // namespace dashpot

@@ -16,7 +16,7 @@ constexpr const char* kSource =
     "of rheology, a transformer and resistances that depend on "
     "anything keep a port-Hamiltonian system passive";
 
-constexpr std::array<PassiveNetworkPreset, 2> kPresets{{
+constexpr std::array<PassiveNetworkPreset, 2> kPassivePresets{{
     {.name = "passive_network",
      .title = "Passive network",
      .equation = kEquation,
@@ -52,6 +52,6 @@ ModelInfo PassiveNetworkPreset::info() const {
   return info;
 }
 
-std::span<const PassiveNetworkPreset> passive_network_presets() { return kPresets; }
+std::span<const PassiveNetworkPreset> passive_network_presets() { return kPassivePresets; }
 
 }  // namespace dashpot

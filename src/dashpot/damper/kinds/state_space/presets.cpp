@@ -5,7 +5,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::array<StateSpacePreset, 1> kPresets{{
+constexpr std::array<StateSpacePreset, 1> kStateSpacePresets{{
     {.name = "neural_state_space",
      .title = "Neural state space, one sensor",
      .equation =
@@ -42,6 +42,6 @@ ModelInfo StateSpacePreset::info() const {
   return {name, ModelKind::StateSpace, title, equation, source, remarks, {"velocity", "current"}};
 }
 
-std::span<const StateSpacePreset> state_space_presets() { return kPresets; }
+std::span<const StateSpacePreset> state_space_presets() { return kStateSpacePresets; }
 
 }  // namespace dashpot

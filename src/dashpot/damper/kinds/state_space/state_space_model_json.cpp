@@ -1,28 +1,18 @@
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/gated_network_json.h"
-#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
-
-Value range(double low, double high) { return Value::array(std::vector<double>{low, high}); }
-
-void read_range(ObjectReader& reader, const char* key, double& low, double& high) {
-  const std::vector<double> ends = reader.required(key).as_numbers();
-  if (ends.size() != 2) throw Error(reader.required(key).where(), "is not a range", "two numbers");
-  low = ends[0];
-  high = ends[1];
-}
 
 Value cell_to_json(const StateSpaceCell& cell) {
   return Value::object({{"path_rates", Value::array(cell.path_rates)},
                         {"lag_rates", Value::array(cell.lag_rates)},
                         {"current_rates", Value::array(cell.current_rates)},
                         {"velocity_scale", cell.velocity_scale},
-                        {"velocity_range", range(cell.velocity_low, cell.velocity_high)},
+                        {"velocity_range", range_value(cell.velocity_low, cell.velocity_high)},
                         {"current_mean", cell.current_mean},
                         {"current_scale", cell.current_scale},
-                        {"current_range", range(cell.current_low, cell.current_high)},
+                        {"current_range", range_value(cell.current_low, cell.current_high)},
                         {"neurons", Value::array(cell.neurons)},
                         {"feedback", Value::array(cell.feedback)},
                         {"model_step", cell.model_step}});
@@ -48,7 +38,7 @@ StateSpaceCell read_cell(const Value& value) {
   return cell;
 }
 
-StateSpaceNetwork read_member(const Value& value) {
+StateSpaceNetwork read_state_space_network(const Value& value) {
   ObjectReader reader(value, "a member");
   StateSpaceNetwork member;
   member.cell = read_cell(reader.required("cell"));
@@ -66,7 +56,8 @@ Value StateSpaceNetwork::to_json() const {
 }
 
 std::unique_ptr<StateSpaceModel> state_space_model_from_json(const Value& value) {
-  return stateful_ensemble_from_json<StateSpaceModel>(value, "a state-space model", read_member);
+  return stateful_ensemble_from_json<StateSpaceModel>(value, "a state-space model",
+                                                      read_state_space_network);
 }
 
 }  // namespace dashpot
