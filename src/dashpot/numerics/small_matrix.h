@@ -62,4 +62,16 @@ void add_product(SmallMatrix<Size, Size>& matrix, double weight, const SmallMatr
       matrix(i, j) += 0.5 * weight * (a(0, i) * b(0, j) + b(0, i) * a(0, j));
 }
 
+/// The same where b is the unit row of `place`: the form weight (a.x) x[place].
+template <std::size_t Size>
+void add_product(SmallMatrix<Size, Size>& matrix, double weight, const SmallMatrix<1, Size>& a,
+                 std::size_t place) {
+  matrix(place, place) += weight * a(0, place);
+  for (std::size_t i = 0; i < Size; ++i) {
+    if (i == place) continue;
+    matrix(i, place) += 0.5 * weight * a(0, i);
+    matrix(place, i) += 0.5 * weight * a(0, i);
+  }
+}
+
 }  // namespace dashpot

@@ -116,7 +116,7 @@ void for_each_patch(const ForceRange& range, Look look) {
 /// On the edges: inside the range it is not less, being concave in F.
 double proven_least(const ForceRange& range, const ForceLimit& limit) {
   if (!(limit.ff <= 0)) return -INFINITY;
-  if (range.sides.empty() && (limit.fx != 0 || limit.vx != 0 || limit.x != 0)) return -INFINITY;
+  if (range.sides.empty() && limit.has_displacement()) return -INFINITY;
 
   // What it is at the corners, which nothing proves: what comes near that is good enough.
   double corner = INFINITY;

@@ -124,6 +124,7 @@ struct ForceLimit {
     return (ff * force + fv * velocity + f + fx * displacement) * force +
            (vv * velocity + v + vx * displacement) * velocity + x * displacement + one;
   }
+  bool has_displacement() const noexcept { return fx != 0 || vx != 0 || x != 0; }
 };
 /// Some that hold a range in: sectors, (F - l1(v)) (l2(v) - F) + one for straight lines l1 and l2
 /// that meet at the velocity 0. Of a range of damping it is the exact one but for a millionth of a

@@ -7,22 +7,21 @@ namespace dashpot {
 /// A form over [q, q', 1, F].
 using CostForm = SmallMatrix<6, 6>;
 
-/// The index's integrand less a limit.
-inline CostForm limited_cost(const AffineCar& car, const ForceLimit& limit,
-                             const RideIndex& index) noexcept {
-  SmallMatrix<1, 6> force, one;
-  force(0, kForcePlace) = 1;
-  one(0, kOnePlace) = 1;
-  CostForm form = cost_form(car, index);
-  add_product(form, -limit.ff, force, force);
-  add_product(form, -limit.fv, force, car.speed);
+/// The index's integrand, by its own form, less a limit.
+inline CostForm limited_cost(CostForm form, const AffineCar& car,
+                             const ForceLimit& limit) noexcept {
+  form(kForcePlace, kForcePlace) -= limit.ff;
+  add_product(form, -limit.fv, car.speed, kForcePlace);
   add_product(form, -limit.vv, car.speed, car.speed);
-  add_product(form, -limit.f, force, one);
-  add_product(form, -limit.v, car.speed, one);
-  add_product(form, -limit.fx, force, car.displacement);
-  add_product(form, -limit.vx, car.speed, car.displacement);
-  add_product(form, -limit.x, car.displacement, one);
-  add_product(form, -limit.one, one, one);
+  form(kForcePlace, kOnePlace) -= 0.5 * limit.f;
+  form(kOnePlace, kForcePlace) -= 0.5 * limit.f;
+  add_product(form, -limit.v, car.speed, kOnePlace);
+  if (limit.has_displacement()) {
+    add_product(form, -limit.fx, car.displacement, kForcePlace);
+    add_product(form, -limit.vx, car.speed, car.displacement);
+    add_product(form, -limit.x, car.displacement, kOnePlace);
+  }
+  form(kOnePlace, kOnePlace) -= limit.one;
   return form;
 }
 

@@ -70,7 +70,7 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
   for (std::size_t cell = car.cells(); cell-- > 0;) {
     const AffineCar now = car.over(cell);
     const SmallMatrix<6, 6> form =
-        car.step() * cost_form(now, index) + transposed(now.motion) * (value * now.motion);
+        car.step() * cost_form(now, index) + before_motion(value, now.motion);
     Law law;
     for (std::size_t j = 0; j < 5; ++j)
       law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);

@@ -15,27 +15,65 @@ constexpr double ForceLimit::* kCoefficients[] = {
     &ForceLimit::ff, &ForceLimit::fv, &ForceLimit::vv, &ForceLimit::f,  &ForceLimit::v,
     &ForceLimit::fx, &ForceLimit::vx, &ForceLimit::x,  &ForceLimit::one};
 
+/// Second moments of [q, q', 1] as those of [q, q', 1, F], where F follows a law of these.
+CostForm with_force(const StateForm& moment, const SmallMatrix<1, 5>& law) {
+  const SmallMatrix<1, 5> of_force = law * moment;
+  CostForm joint;
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t j = 0; j < 5; ++j) {
+      joint(i, j) = moment(i, j);
+      joint(i, kForcePlace) += moment(i, j) * law(0, j);
+    }
+    joint(kForcePlace, i) = of_force(0, i);
+    joint(kForcePlace, kForcePlace) += of_force(0, i) * law(0, i);
+  }
+  return joint;
+}
+
+/// The second moments of [q, q', 1] after the motion.
+StateForm after_motion(const CostForm& joint, const SmallMatrix<5, 6>& motion) {
+  // The motion's last row leaves the 1 as it is.
+  SmallMatrix<5, 6> moved;
+  for (std::size_t i = 0; i < kOnePlace; ++i)
+    for (std::size_t k = 0; k < 6; ++k)
+      for (std::size_t j = 0; j < 6; ++j) moved(i, j) += motion(i, k) * joint(k, j);
+  for (std::size_t j = 0; j < 6; ++j) moved(kOnePlace, j) = joint(kOnePlace, j);
+
+  const SmallMatrix<6, 5> turned = transposed(motion);
+  StateForm moment;
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < 6; ++k)
+      for (std::size_t j = 0; j < kOnePlace; ++j) moment(i, j) += moved(i, k) * turned(k, j);
+    moment(i, kOnePlace) = moved(i, kOnePlace);
+  }
+  return moment;
+}
+
 /// The minimum of L by its limits, with a barrier before the edge of those that have none: the sum
 /// over cells of barrier * log(R), R being the curvature of L by a cell's force. It is the minimum
 /// of the mean of L under forces that also tremble, less what a measure of order costs.
 class Dual {
  public:
   Dual(const SampledPlant& car, const RideIndex& index, bool has_displacement)
-      : car_(car),
-        index_(index),
+      : step_(car.step()),
         has_displacement_(has_displacement),
         curvature_(car.cells()),
-        law_(car.cells()) {}
+        law_(car.cells()) {
+    for (std::size_t cell = 0; cell < car.cells(); ++cell) {
+      cars_.push_back(car.over(cell));
+      costs_.push_back(cost_form(cars_.back(), index));
+    }
+  }
 
   /// False where there is no minimum.
   bool value(const LimitCourse& course, double barrier, double& out) {
     StateForm value;
     double logarithms = 0;
-    for (std::size_t cell = car_.cells(); cell-- > 0;) {
+    for (std::size_t cell = cars_.size(); cell-- > 0;) {
       // One step back: the value over [q, q', 1], least by the force.
-      const AffineCar now = car_.over(cell);
-      const CostForm form = car_.step() * limited_cost(now, course.in(cell), index_) +
-                            transposed(now.motion) * (value * now.motion);
+      const AffineCar& now = cars_[cell];
+      const CostForm form = step_ * limited_cost(costs_[cell], now, course.in(cell)) +
+                            before_motion(value, now.motion);
       curvature_[cell] = form(kForcePlace, kForcePlace);
       if (!(curvature_[cell] > 0)) return false;
       const LeastOverForce least = least_over_force(form);
@@ -53,18 +91,13 @@ class Dual {
     std::vector<ForceLimit> out(course.limits.size());
     StateForm moment;
     moment(kOnePlace, kOnePlace) = 1;
-    for (std::size_t cell = 0; cell < car_.cells(); ++cell) {
-      const AffineCar now = car_.over(cell);
-      SmallMatrix<6, 5> lift;
-      for (std::size_t i = 0; i < 5; ++i) {
-        lift(i, i) = 1;
-        lift(kForcePlace, i) = law_[cell](0, i);
-      }
-      CostForm joint = lift * moment * transposed(lift);
+    for (std::size_t cell = 0; cell < cars_.size(); ++cell) {
+      const AffineCar& now = cars_[cell];
+      CostForm joint = with_force(moment, law_[cell]);
       joint(kForcePlace, kForcePlace) += barrier / curvature_[cell];
 
       const SmallMatrix<1, 6> with_speed = now.speed * joint;
-      const double h = car_.step();
+      const double h = step_;
       ForceLimit& slope = out[cell / course.block];
       slope.ff -= h * joint(kForcePlace, kForcePlace);
       slope.fv -= h * with_speed(0, kForcePlace);
@@ -78,15 +111,16 @@ class Dual {
         slope.x -= h * with_displacement(0, kOnePlace);
       }
       slope.one -= h;
-      moment = now.motion * joint * transposed(now.motion);
+      moment = after_motion(joint, now.motion);
     }
     return out;
   }
 
  private:
-  const SampledPlant& car_;
-  const RideIndex& index_;
-  bool has_displacement_;  ///< the limits have it
+  double step_;
+  std::vector<AffineCar> cars_;  ///< by cell
+  std::vector<CostForm> costs_;  ///< the index's, by cell
+  bool has_displacement_;        ///< the limits have it
   std::vector<double> curvature_;
   std::vector<SmallMatrix<1, 5>> law_;
 };
@@ -96,9 +130,12 @@ class LimitFamily {
  public:
   virtual ~LimitFamily() = default;
   virtual std::size_t unknowns() const = 0;
-  virtual ForceLimit limit(const double* x) const = 0;
+  /// `mean`: where given, what slopes() asks for beside the unknowns: how much less the constant
+  /// becomes with each coefficient.
+  virtual ForceLimit limit(const double* x, ForceLimit* mean) const = 0;
   /// The slopes by the unknowns, from those by the limit's coefficients.
-  virtual void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const = 0;
+  virtual void slopes(const double* x, const ForceLimit& mean, const ForceLimit& by_limit,
+                      double* by_x) const = 0;
 };
 
 /// Sectors, by the logarithms of their multipliers.
@@ -107,14 +144,15 @@ class SectorFamily final : public LimitFamily {
   explicit SectorFamily(std::vector<ForceLimit> sectors) : sectors_(std::move(sectors)) {}
   std::size_t unknowns() const override { return sectors_.size(); }
 
-  ForceLimit limit(const double* x) const override {
+  ForceLimit limit(const double* x, ForceLimit*) const override {
     ForceLimit sum;
     for (std::size_t k = 0; k < sectors_.size(); ++k)
       for (const auto one : kCoefficients) sum.*one += std::exp(x[k]) * sectors_[k].*one;
     return sum;
   }
 
-  void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const override {
+  void slopes(const double* x, const ForceLimit&, const ForceLimit& by_limit,
+              double* by_x) const override {
     for (std::size_t k = 0; k < sectors_.size(); ++k) {
       double sum = 0;
       for (const auto one : kCoefficients) sum += by_limit.*one * sectors_[k].*one;
@@ -153,15 +191,14 @@ class FreeFamily final : public LimitFamily {
   void set_smoothness(double smoothness) { smoothness_ = smoothness; }
   std::size_t unknowns() const override { return basis_.size() + 1; }
 
-  ForceLimit limit(const double* x) const override {
+  ForceLimit limit(const double* x, ForceLimit* mean) const override {
     ForceLimit q = of(x);
-    q.one = -least(q, nullptr);
+    q.one = -least(q, mean);
     return q;
   }
 
-  void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const override {
-    ForceLimit mean;
-    least(of(x), &mean);
+  void slopes(const double* x, const ForceLimit& mean, const ForceLimit& by_limit,
+              double* by_x) const override {
     const auto along = [&](const ForceLimit& direction) {
       double sum = 0;
       for (std::size_t k = 0; k < terms_.size(); ++k) {
@@ -260,15 +297,16 @@ class FreeFamily final : public LimitFamily {
   double least(const ForceLimit& q, ForceLimit* mean) const {
     // The sharp least, from which the weights count so that none overflows.
     set_values(q, values_);
-    const double least = *std::ranges::min_element(values_);
+    double least = values_.front();
+    for (const double value : values_) least = std::min(least, value);
 
     // The weights of the corners; those of exp(-40) and less change nothing.
-    constexpr double kNothing = 40;
+    const double counts = 40 * smoothness_;
     double sum = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      const double above = (values_[i] - least) / smoothness_;
-      if (above > kNothing) continue;
-      const double weight = std::exp(-above);
+      const double above = values_[i] - least;
+      if (above > counts) continue;
+      const double weight = std::exp(-above / smoothness_);
       sum += weight;
       if (!mean) continue;
       for (std::size_t k = 0; k < terms_.size(); ++k)
@@ -288,10 +326,14 @@ class FreeFamily final : public LimitFamily {
   mutable std::vector<double> values_;      ///< for least()
 };
 
-LimitCourse course_of(const LimitFamily& family, const std::vector<double>& x, std::size_t block) {
+/// With `means`, of the same length as the limits, for the slopes.
+LimitCourse course_of(const LimitFamily& family, const std::vector<double>& x, std::size_t block,
+                      std::vector<ForceLimit>* means = nullptr) {
   LimitCourse course{.block = block, .limits = {}};
-  for (std::size_t k = 0; k < x.size(); k += family.unknowns())
-    course.limits.push_back(family.limit(x.data() + k));
+  for (std::size_t k = 0; k < x.size(); k += family.unknowns()) {
+    ForceLimit* const mean = means ? &means->emplace_back() : nullptr;
+    course.limits.push_back(family.limit(x.data() + k, mean));
+  }
   return course;
 }
 
@@ -341,13 +383,14 @@ struct Climb {
     const auto fall = [&](std::span<const double> steps, double& value,
                           std::span<double> gradient) {
       at(steps);
-      const LimitCourse course = course_of(family, x, block);
+      std::vector<ForceLimit> means;
+      const LimitCourse course = course_of(family, x, block, gradient.empty() ? nullptr : &means);
       if (!dual.value(course, barrier, value)) return false;
       value /= -scale;
       if (gradient.empty()) return true;
       const std::vector<ForceLimit> slopes = dual.slopes(course, barrier);
       for (std::size_t k = 0; k < slopes.size(); ++k)
-        family.slopes(x.data() + k * n, slopes[k], gradient.data() + k * n);
+        family.slopes(x.data() + k * n, means[k], slopes[k], gradient.data() + k * n);
       for (std::size_t k = 0; k < gradient.size(); ++k) gradient[k] *= -unit[k] / scale;
       return true;
     };

@@ -53,6 +53,10 @@ SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, doubl
   set_rates(plant);
   end_ = flow(step);
   middle_ = flow(step / 2);
+  unpushed_ = {end_.motion, after(rates_.acceleration, middle_.motion),
+               after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion),
+               after(rates_.displacement, middle_.motion)};
+
   // Through two points inside the cell, so that a jump between cells stays between them.
   const Tyre& tyre = plant.tyres[0];
   const auto cells = static_cast<std::size_t>(std::llround(duration / step));
@@ -148,9 +152,7 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   const Road& road = road_[cell];
   const double push = stiffness_ * road.height + damping_ * road.slope,
                rising = stiffness_ * road.slope;
-  AffineCar car{end_.motion, after(rates_.acceleration, middle_.motion),
-                after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion),
-                after(rates_.displacement, middle_.motion)};
+  AffineCar car = unpushed_;
   drive(car, push * end_.constant + rising * end_.rising,
         push * middle_.constant + rising * middle_.rising, push + 0.5 * step_ * rising);
   return car;
@@ -159,6 +161,25 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
 Plant with_spring(Plant plant, double stiffness) {
   add_along(plant.stiffness, plant.struts.front().row, stiffness);
   return plant;
+}
+
+SmallMatrix<6, 6> before_motion(const SmallMatrix<5, 5>& value,
+                                const SmallMatrix<5, 6>& motion) noexcept {
+  // V M. The motion's last row leaves the 1 as it is.
+  SmallMatrix<5, 6> moved;
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < kOnePlace; ++k)
+      for (std::size_t j = 0; j < 6; ++j) moved(i, j) += value(i, k) * motion(k, j);
+    moved(i, kOnePlace) += value(i, kOnePlace);
+  }
+
+  // M'(V M).
+  SmallMatrix<6, 6> form;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t k = 0; k < kOnePlace; ++k)
+      for (std::size_t j = 0; j < 6; ++j) form(i, j) += motion(k, i) * moved(k, j);
+  for (std::size_t j = 0; j < 6; ++j) form(kOnePlace, j) += moved(kOnePlace, j);
+  return form;
 }
 
 SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept {

@@ -61,6 +61,7 @@ class SampledPlant {
   AffineCar rates_;
   SmallMatrix<5, 1> by_push_;
   Flow end_, middle_;
+  AffineCar unpushed_;  ///< one step on a road that lies still at 0
   std::vector<Road> road_;
 };
 
@@ -69,6 +70,10 @@ class SampledPlant {
 void require_quarter_car(const Plant& plant);
 /// The same plant with a spring, N/m, beside its first strut's damper.
 Plant with_spring(Plant plant, double stiffness);
+
+/// A form over [q, q', 1] as one over [q, q', 1, F] before the motion.
+SmallMatrix<6, 6> before_motion(const SmallMatrix<5, 5>& value,
+                                const SmallMatrix<5, 6>& motion) noexcept;
 
 /// The index's form over [q, q', 1, F].
 SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept;

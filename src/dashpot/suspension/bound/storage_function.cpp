@@ -55,7 +55,7 @@ class StorageFunction {
   /// -dP/dt: the least over the force of what V must make up for, less the room.
   bool slope_of(const StateForm& value, std::size_t cell, double into, StateForm& slope) const {
     const AffineCar now = car_.at(cell, into);
-    CostForm form = limited_cost(now, *certificate_.limit(cell), index_);
+    CostForm form = limited_cost(cost_form(now, index_), now, *certificate_.limit(cell));
     const SmallMatrix<5, 6> moved = value * now.motion;
     for (std::size_t i = 0; i < 5; ++i)
       for (std::size_t j = 0; j < 6; ++j) {
