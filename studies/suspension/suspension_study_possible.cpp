@@ -185,7 +185,7 @@ DocumentSection possible_section(const SuspensionStudy& study) {
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
       "each velocity up to twice the fastest on the bench, straight on beyond that: the bounds are "
-      "for rides that stay within. They are checked in interval arithmetic.");
+      "for rides that stay within. They are proven with a limit on every rounding.");
   return section;
 }
 

@@ -64,7 +64,7 @@ std::string possible_note(const RideStudy& study) {
       number_text(100 * kLeastPossible) +
       " % better than passive. Optimum: simulated, the road known in advance. Bound: no controller "
       "gets below whose damper's forces lie in the range that its model was sampled to have, "
-      "checked in interval arithmetic";
+      "proven with a limit on every rounding";
 
   // As far as the range goes.
   std::vector<std::string> within;

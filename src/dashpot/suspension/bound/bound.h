@@ -58,7 +58,7 @@ struct ClairvoyantBound {
   StrutMotion motion;          ///< of the optimum
   bool leaves = false;         ///< the optimum goes beyond the range, so that nothing is proven
   std::vector<double> shares;  ///< demands, per step, from softest (0) to hardest (1)
-  bool proven = false;         ///< the bound, by a certificate in interval arithmetic; else it is 0
+  bool proven = false;  ///< the bound, by a certificate that limits every rounding; else it is 0
 
   double gap() const { return optimum > 0 ? (optimum - bound) / optimum : 0; }
 };
