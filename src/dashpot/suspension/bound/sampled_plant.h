@@ -71,7 +71,7 @@ void require_quarter_car(const Plant& plant);
 /// The same plant with a spring, N/m, beside its first strut's damper.
 Plant with_spring(Plant plant, double stiffness);
 
-/// A form over [q, q', 1] as one over [q, q', 1, F] before the motion.
+/// A form over [q, q', 1] as one over [q, q', 1, F] before a motion over a step, which keeps the 1.
 SmallMatrix<6, 6> before_motion(const SmallMatrix<5, 5>& value,
                                 const SmallMatrix<5, 6>& motion) noexcept;
 
