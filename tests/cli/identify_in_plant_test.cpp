@@ -74,11 +74,11 @@ TEST_CASE("identify --in: what cannot be used is said before the work" *
   CHECK(contains(output(plant + " --models family_gated"),
                  "'family_gated' is a model of many dampers, and a plant holds one"));
   CHECK(contains(output(plant + " --models dahl --leave-out current"),
-                 "--leave-out: has no meaning with --in; 'held_back'"));
+                 "--leave-out: has no effect with --in; 'held_back'"));
   CHECK(contains(output(plant + " --models dahl --asymmetric"), "--asymmetric: has no meaning"));
   for (const char* option : {"--force-offset none", "--velocity-cutoff 10", "--keep-inertia",
                              "--pdf", "--fresh", "--plant savaresi_spelta"})
-    CHECK(contains(output(plant + " --models dahl " + option), "has no meaning with --in"));
+    CHECK(contains(output(plant + " --models dahl " + option), "has no effect with --in"));
   CHECK(contains(output(plant + " --models dahl"), "leaves 2 samples to fit"));
   CHECK(contains(output("--in oscillator,mass=2,force=psh,displacement=x --models dahl"),
                  "has no column 'psh'; it has 'time [s]', 'push [N]', 'x [mm]'"));
