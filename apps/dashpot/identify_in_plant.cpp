@@ -249,6 +249,14 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
                                           : "one sample ahead; nothing measures the road")
           : "Nothing could be fitted: " + best.report.message;
 
+  // What speaks against them stands first in the files; the terminal has it as warnings.
+  DocumentSection doubts{
+      .name = "doubts", .title = "In doubt", .paragraphs = {}, .audience = Audience::Files};
+  for (const InPlantFit& fit : fits)
+    for (const std::string& warning : fit.report.warnings)
+      doubts.remarks.push_back(fit.model + ": " + warning);
+  if (!doubts.remarks.empty()) document.sections.push_back(std::move(doubts));
+
   // The models beside each other, where there are several.
   if (fits.size() > 1) {
     DocumentTable laws{.title = "Models, by the worst sensor on the time held back",

@@ -61,6 +61,23 @@ TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a m
   CHECK_CLOSE(model.model->force({0, 1, 0}, {}), 34, 0.2, 0);
 }
 
+TEST_CASE("identify --in: what speaks against a result stands in its files too" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder;
+  folder.write("pushed.csv", pushed_mass());
+  const TemporaryFolder elsewhere;
+  const std::string results = elsewhere.path().string();
+  const ProgramResult result = run_dashpot(
+      "identify " + folder.path().string() +
+      " --in oscillator,mass=2,damping=unknown,stiffness=5N/mm,force=push,displacement=x "
+      "--models tanh_guo --starts 3 --output " +
+      results);
+  const std::string doubt = "tanh_guo: damping and A2 cannot be told apart by these sensors";
+  CHECK(contains(result.output, doubt));
+  for (const char* page : {"/report.html", "/report.md"})
+    CHECK(contains(read_file(results + page), doubt));
+}
+
 TEST_CASE("identify --in: what cannot be used is said before the work" *
           doctest::test_suite("long")) {
   const TemporaryFolder folder;
