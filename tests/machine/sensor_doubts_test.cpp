@@ -72,6 +72,22 @@ TEST_CASE("sensor_doubts: one flaw of a sensor in all recordings is named with i
   CHECK_FALSE(contains(doubts_about([](double t) { return -motion(t); }), "az"));
 }
 
+TEST_CASE("noise_doubts: a sensor that nearly all is taken for noise of, and no other") {
+  InPlantSetup setup;
+  setup.sensors = {{.channel = "level"}, {.channel = "az", .noise = 0.1}};
+  InPlantReport report;
+  for (const double rms : {0.01, 0.02}) {
+    report.sensors.push_back({.recording = "ride", .channel = "level", .rms = rms});
+    report.sensors.push_back({.recording = "ride", .channel = "az", .rms = 100 * rms});
+  }
+  report.nuisances = {{.name = "noise of level", .unit = "m", .value = 0.0002}};
+  CHECK(noise_doubts(setup, report).empty());
+  report.nuisances.front().value = 0.01;
+  REQUIRE(noise_doubts(setup, report).size() == 1);
+  CHECK(contains(noise_doubts(setup, report).front(),
+                 "level: its noise was found to be 0.01 m, 63.2 % of what it shows"));
+}
+
 TEST_CASE("sensor_doubts: what no flaw explains is no flaw; a model that meets nothing is told") {
   CHECK(doubts_about([](double t) { return motion(t) + 0.2 * std::sin(37 * t); }).empty());
   CHECK(contains(doubts_about([](double t) { return std::sin(37 * t); }),

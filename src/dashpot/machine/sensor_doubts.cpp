@@ -257,4 +257,29 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
   return doubts;
 }
 
+std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantReport& report) {
+  constexpr double kMuch = 0.3;  // of what the sensor shows
+  std::vector<std::string> doubts;
+  for (const PlantSensor& sensor : setup.sensors) {
+    const auto found =
+        std::ranges::find(report.nuisances, "noise of " + sensor.channel, &FittedParameter::name);
+    if (found == report.nuisances.end()) continue;
+    double square = 0, recordings = 0;
+    for (const SensorFigures& figure : report.sensors)
+      if (figure.channel == sensor.channel) {
+        square += figure.rms * figure.rms;
+        recordings += 1;
+      }
+    const double share = found->value / std::sqrt(square / recordings);
+    if (share > kMuch)
+      doubts.push_back(sensor.channel + ": its noise was found to be " +
+                       format_number(found->value, 3) + ' ' + found->unit + ", " +
+                       format_number(100 * share, 3) +
+                       " % of what it shows: if it has not so much, its sign, its unit, its delay "
+                       "('delay: unknown') or another sensor's are not as stated, and numbers and "
+                       "intervals lean by it");
+  }
+  return doubts;
+}
+
 }  // namespace dashpot

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 
 namespace dashpot {
@@ -13,5 +14,9 @@ namespace dashpot {
 std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
                                        const std::vector<SensorFigures>& figures,
                                        const std::vector<InPlantTrace>& traces);
+
+/// The same where nothing measures the road, so that nothing runs free: sensors that nearly all was
+/// taken for noise of, a sentence each. `report` has sensors and nuisances.
+std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantReport& report);
 
 }  // namespace dashpot
