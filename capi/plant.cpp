@@ -228,8 +228,7 @@ std::string watch_rides(const PlacedModels& models, const dashpot_rides* rides, 
   Value told = to_json(Watched{watched, history.days, quantities, options}), kept = Value::array();
   for (const WatchedDay& day : history.days) kept.push_back(to_json(day));
   for (std::string& doubt : hardly_apart(watched)) warnings.push_back(std::move(doubt));
-  for (std::string& day : odd_reference_days(quantities, history.days))
-    warnings.push_back(std::move(day));
+  for (std::string& day : odd_days(quantities, history.days)) warnings.push_back(std::move(day));
   told.add("warnings", std::move(warnings));
   told.add(
       "state",

@@ -135,6 +135,13 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
     if (!option.needs.empty() && app.count(option.long_name()) > 0 && app.count(option.needs) == 0)
       throw UsageError(option.long_name(), "has no effect without " + option.needs,
                        "give both, or leave it out");
+  for (const Option& option : options) {
+    if (option.idles.empty() || app.count(option.long_name()) == 0) continue;
+    for (const IdleOptions& idle : option.idles)
+      for (const std::string& name : idle.names)
+        if (app.count(name) > 0)
+          throw UsageError(name, "has no effect with " + option.long_name() + idle.why, idle.right);
+  }
   return true;
 }
 

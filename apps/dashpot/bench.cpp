@@ -93,12 +93,8 @@ int run_family(const BenchSettings& settings, Console& console) {
 int run_bench(BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
   page_units(settings.campaign.units);
-  if (!settings.in_plant.plant.empty() && !settings.campaign.units.empty())
-    throw UsageError("--units", "is not for recordings inside a plant, whose file states units",
-                     "leave it out");
   if (!settings.in_plant.plant.empty())
     return record_in_plant(settings.in_plant, settings.campaign, settings.folder, console);
-  require_no_plant(settings.in_plant);
 
   // One option for what scatters, builds of drawings or dampers of a line.
   if (settings.scatter >= 1)

@@ -111,8 +111,17 @@ std::vector<std::shared_ptr<const DamperModel>> true_dampers(const ParameterSet&
     const auto own =
         bar == std::string::npos ? struts.end() : std::ranges::find(struts, name.substr(0, bar));
     const Wear& wear = find_wear(own == struts.end() ? name : name.substr(bar + 1), "--wear");
-    for (std::size_t d = 0; d < struts.size(); ++d)
-      if (own == struts.end() || *own == struts[d]) amounts[d].push_back({&wear, *value});
+
+    // A share beyond the whole would push where the damper brakes; of two, one would be a slip.
+    if (wear.unit == "1" && *value < -1)
+      throw UsageError("--wear", name + " is " + format_number(*value) + ", more than the whole",
+                       name + "=-0.1, 10 % less");
+    for (std::size_t d = 0; d < struts.size(); ++d) {
+      if (own != struts.end() && *own != struts[d]) continue;
+      if (std::ranges::find(amounts[d], &wear, &WornDamper::Amount::wear) != amounts[d].end())
+        throw UsageError("--wear", name + " is stated twice", "once, with the sum of both");
+      amounts[d].push_back({&wear, *value});
+    }
   }
 
   const auto as_new = std::make_shared<LawModel>(damper.model);
@@ -139,21 +148,6 @@ void require_no_other_rides(const fs::path& folder, const std::vector<VirtualRid
   }
 }
 
-/// Options of a bench that no plant takes.
-void require_no_bench(const CampaignSettings& campaign) {
-  const CampaignSettings usual;
-  if (campaign.motions != usual.motions || !campaign.motion.empty() || !campaign.drive.empty() ||
-      !campaign.experiment.empty())
-    throw UsageError("--in", "a plant is moved by its road or a force, not by motions of a bench",
-                     "leave --motions, --motion, --drive and --experiment out");
-  for (const auto& [option, is_said] :
-       {std::pair{"--cycles", campaign.bench.cycles != usual.bench.cycles},
-        {"--noise", campaign.bench.force_noise != usual.bench.force_noise}})
-    if (is_said)
-      throw UsageError(option, "is of a bench, and has no effect with --in",
-                       "--duration; the noise of sensors as the plant states it, or --grade");
-}
-
 }  // namespace
 
 std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
@@ -163,67 +157,72 @@ std::vector<Option> plant_bench_options(PlantBenchSettings& settings) {
            .help = "instead of a bench: rides of a plant with the damper in it, as its sensors "
                    "record them, a ride per level, and the truth beside them (docs/in-plant.md)",
            .value = "PLANT",
-           .takes = Takes::File},
+           .takes = Takes::File,
+           .idles = {{{"--motions", "--motion", "--drive", "--experiment", "--cycles"},
+                      ": a plant is moved by its road or a force, not by motions of a bench",
+                      "leave it out; --duration, --road or --push"},
+                     {{"--velocity-sensor", "--noise", "--zero-drift"},
+                      ", whose sensors are those of the plant",
+                      "leave it out; 'noise' in the plant's file, or --grade"},
+                     {{"--family", "--fluid", "--builds", "--asymmetry", "--give", "--dampers",
+                       "--faults", "--trend", "--scatter"},
+                      ", which drives one damper as it is published",
+                      "leave it out; --wear changes its force"},
+                     {{"--units"}, ", whose plant's file states units", "leave it out"}}},
           {.names = "--true",
            .target = &settings.truth,
            .help = "with --in: true values of what the plant calls unknown, as sprung_mass=350kg",
            .value = "LIST",
-           .default_text = "those of the plant's table"},
+           .default_text = "those of the plant's table",
+           .needs = "--in"},
           {.names = "--wear",
            .target = &settings.wear,
            .help = "with --in: changes of the damper's force, as force=-0.1 (10 % less), of one of "
                    "several front_force=-0.1; what 'dashpot watch' finds",
-           .value = "LIST"},
+           .value = "LIST",
+           .needs = "--in"},
 
           // What moves it, for how long, and how well that is seen.
           {.names = "--road",
            .target = &settings.road,
            .help = "with --in: the road (simulate --list roads)",
            .value = "WORDS",
-           .default_text = "of class C at 20 m/s, or as the plant says"},
+           .default_text = "of class C at 20 m/s, or as the plant says",
+           .needs = "--in"},
           {.names = "--push",
            .target = &settings.push,
            .help = "with --in: rms of the random force, N, or ground acceleration, m/s^2, that "
                    "moves a plant without a road",
            .value = "RMS",
            .minimum = 0,
-           .default_text = "0.3 N per kg, or 1 m/s^2"},
+           .default_text = "0.3 N per kg, or 1 m/s^2",
+           .needs = "--in"},
           {.names = "--duration",
            .target = &settings.duration,
            .help = "with --in: of each ride, s",
            .value = "S",
-           .minimum = 1},
+           .minimum = 1,
+           .needs = "--in"},
           {.names = "--hold",
            .target = &settings.hold,
            .help = "with --in: one ride that holds each level so long, s, one after the other at "
                    "random",
            .value = "S",
            .minimum = 0,
-           .default_text = "a ride per level"},
+           .default_text = "a ride per level",
+           .needs = "--in"},
           {.names = "--grade",
            .target = &settings.grade,
            .help = "with --in: of sensors whose noise is not stated",
            .value = "NAME",
            .choices = grade_names(),
-           .noun = "grade"}};
-}
-
-void require_no_plant(const PlantBenchSettings& settings) {
-  const PlantBenchSettings usual;
-  for (const auto& [option, is_said] : {std::pair{"--true", !settings.truth.empty()},
-                                        {"--wear", !settings.wear.empty()},
-                                        {"--road", !settings.road.empty()},
-                                        {"--push", settings.push != usual.push},
-                                        {"--duration", settings.duration != usual.duration},
-                                        {"--hold", settings.hold != usual.hold},
-                                        {"--grade", settings.grade != usual.grade}})
-    if (is_said) throw UsageError(option, "goes with --in");
+           .noun = "grade",
+           .needs = "--in"}};
 }
 
 int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& campaign,
                     const std::string& folder, Console& console) {
   // What the plant truly is, and the damper in it.
-  require_no_bench(campaign);
   const InPlantSetup asked = read_in_plant_setup(settings.plant);
   const InPlantSetup setup =
       with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));

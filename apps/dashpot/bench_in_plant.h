@@ -17,9 +17,6 @@ struct PlantBenchSettings {
 
 std::vector<Option> plant_bench_options(PlantBenchSettings& settings);
 
-/// Throws UsageError where an option of a plant is stated without one.
-void require_no_plant(const PlantBenchSettings& settings);
-
 /// Makes the rides, writes what the sensors recorded, the truth beside it, and the plant as it
 /// truly is. Returns the exit code.
 int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& campaign,

@@ -29,6 +29,13 @@ using Target =
 /// The kind of thing that a value names, so that a shell can complete it.
 enum class Takes { Word, File, Folder };
 
+/// Options that have no effect beside another one, and are refused.
+struct IdleOptions {
+  std::vector<std::string> names;  ///< long ones
+  std::string why = {};            ///< what follows "has no effect with --in"
+  std::string right = "leave one of them out";
+};
+
 /// One row of a command's table of options.
 struct Option {
   std::string names;  ///< "-q,--quiet", "--starts", or "DATA" for an argument by position
@@ -48,6 +55,7 @@ struct Option {
   bool required = false;
   /// Long name of the option without which this one has no effect, and is refused; empty: none.
   std::string needs = {};
+  std::vector<IdleOptions> idles = {};  ///< what has no effect beside this one
   std::string details = {};  ///< what follows `help` where there is room: a topic, the docs page
 
   bool is_positional() const { return names.front() != '-'; }

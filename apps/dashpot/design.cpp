@@ -177,24 +177,6 @@ void write_results(const Document& report, const DesignInput& input, const Desig
   console.print(where);
 }
 
-/// The options that only a search for designs follows.
-void require_search(const DesignSettings& asked) {
-  const DesignSettings usual;
-  const auto refuse = [](bool is_stated, const std::string& option) {
-    if (is_stated)
-      throw UsageError(option, "has no effect with --next, which searches for no designs",
-                       "leave it out");
-  };
-  refuse(asked.points != usual.points, "--points");
-  refuse(asked.options.generations != usual.options.generations, "--generations");
-  refuse(!asked.start_from.empty(), "--start-from");
-  refuse(asked.method != usual.method, "--method");
-  refuse(!asked.options.second.empty(), "--second");
-  refuse(asked.outside_family != usual.outside_family, "--outside-family");
-  refuse(asked.insist, "--insist");
-  refuse(!asked.report, "--no-report");
-}
-
 int run_design(DesignSettings settings, Console& console) {
   if (settings.quantities) {
     console.print(quantities_text(console.width()));
@@ -202,7 +184,6 @@ int run_design(DesignSettings settings, Console& console) {
   }
 
   if (settings.next.count > 0) {
-    require_search(settings);
     return run_next(settings.next, requested(settings, Goals::Optional), settings.options.model,
                     settings.folder, settings.options.seed, settings.options.threads, console);
   }

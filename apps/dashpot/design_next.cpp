@@ -95,7 +95,10 @@ std::vector<Option> next_options(NextSettings& settings) {
            .help = "in place of designs: so many drawings whose recording would tell --model, a "
                    "family_physics, most",
            .value = "N",
-           .default_text = "none"},
+           .default_text = "none",
+           .idles = {{{"--points", "--generations", "--start-from", "--method", "--second",
+                       "--outside-family", "--insist", "--no-report"},
+                      ", which searches for no designs"}}},
           {.names = "--motions",
            .target = &settings.motions,
            .help = "sines that --next would record, in mm x Hz",

@@ -196,9 +196,6 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
   const VehicleChoice& vehicle = settings.vehicle;
   if (!settings.plant.empty()) {
     require_blocks(settings, settings.plant, "an observer");
-    for (const GivenOptions& given :
-         {vehicle_options_given(vehicle), inverse_options_given(vehicle)})
-      refuse(given, "has no effect on the observer of --in", "leave it out");
     return observer_block(settings, options, console);
   }
   if (!settings.force_errors.empty()) throw UsageError("--force-error", "goes with --in");
@@ -480,7 +477,10 @@ Command export_command() {
                     .help = "with C or an FMU: the observer of this plant with the damper in it "
                             "('dashpot observe'), from sensors to force and motion",
                     .value = "PLANT",
-                    .takes = Takes::File},
+                    .takes = Takes::File,
+                    .idles = {{{"--controller", "--damper", "--plant", "--set", "--force-loop",
+                                "--in-car", "--inverse", "--current-max", "--lag-rate"},
+                               ", which exports an observer"}}},
                    force_error_option(settings->force_errors),
 
                    // The binary of an FMU.

@@ -44,29 +44,6 @@ constexpr std::string_view kIdentifyExample =
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
-/// The options that only the fit of a measured force follows.
-void require_bench(const IdentifySettings& asked) {
-  const auto refuse = [](bool is_stated, const std::string& option,
-                         const std::string& right = "leave it out: no force is measured") {
-    if (is_stated) throw UsageError(option, "has no meaning with --in", right);
-  };
-
-  // What judges a force, or is asked of its recordings.
-  refuse(!asked.kit.traces.empty(), "--traces");
-  refuse(!asked.kit.covariance.empty(), "--covariance");
-  refuse(!asked.validate.empty(), "--validate");
-  refuse(!asked.ranking.fit.from.empty(), "--from");
-  refuse(asked.ranking.fit.force_offset != FitSettings{}.force_offset, "--force-offset");
-  refuse(asked.ranking.data.load.velocity_cutoff_hz > 0, "--velocity-cutoff");
-  refuse(asked.keep_inertia, "--keep-inertia");
-
-  // What comes after a fit, or before it, in another way.
-  refuse(asked.ranking.results.pdf, "--pdf", "print the page, report.html, from a browser");
-  refuse(asked.ranking.fresh, "--fresh", "leave it out: every fit is made anew");
-  refuse(!asked.ride.vehicle.plant.empty(), "--plant",
-         "dashpot rank or ride, with the models found");
-}
-
 /// Recordings that no fit sees, refused before the first one where they cannot be used.
 std::optional<Dataset> further_recordings(const IdentifySettings& asked, const Dataset& fitted,
                                           Console& console) {
@@ -81,10 +58,7 @@ std::optional<Dataset> further_recordings(const IdentifySettings& asked, const D
 
 int run_identify(const IdentifySettings& asked, Console& console) {
   const RankingSettings& settings = asked.ranking;
-  if (!asked.plant.plant.empty()) {
-    require_bench(asked);
-    return run_in_plant(asked.plant, settings, console);
-  }
+  if (!asked.plant.plant.empty()) return run_in_plant(asked.plant, settings, console);
 
   // All that may be refused is read before the first fit.
   const std::optional<RideRankOptions> ride = stated_ride(asked.ride, settings, console);
@@ -152,8 +126,9 @@ Command identify_command() {
   append(command.options, kit_options(settings->kit));
 
   // The vehicle that the models are ridden in, or the plant that the damper was recorded in.
-  append(command.options, ride_rank_options(settings->ride));
-  append(command.options, in_plant_options(settings->plant));
+  const std::vector<Option> ride = ride_rank_options(settings->ride);
+  append(command.options, ride);
+  append(command.options, in_plant_options(settings->plant, ride));
   return command;
 }
 

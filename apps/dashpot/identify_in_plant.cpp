@@ -29,26 +29,34 @@ double worst_of(const InPlantFit& fit) {
   return fit.report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
 }
 
-/// What has a meaning on the bench alone is refused, before any work.
-void require_meaning(const RankingSettings& settings) {
-  const auto refuse = [](bool stated, const std::string& option, const std::string& right) {
-    if (stated) throw UsageError(option, "has no meaning with --in", right);
-  };
-
-  // Each option with what says the same inside a plant.
-  const FitSettings& fit = settings.fit;
-  refuse(!settings.leave_out.empty(), "--leave-out",
-         "'held_back' of the plant says which share of each recording judges the fit");
-  refuse(!fit.priors.empty(), "--prior", "state --bounds, or a range of the plant's parameters");
-  refuse(fit.options.search > 0, "--search", "--starts says how many starts are tried");
-  refuse(!settings.data.load.dataset_file.empty(), "--dataset",
-         "the plant says which channel is which");
-  refuse(settings.results.figures, "--figures", "the page has its figures");
-
-  // Models by their names: none is usual there.
-  if (fit.models == std::vector<std::string>{"usual"})
+/// Models are named: none is usual inside a plant.
+void require_named_models(const std::vector<std::string>& models) {
+  if (models == std::vector<std::string>{"usual"})
     throw UsageError("--models", "is not stated",
                      "with --in, name what is to be fitted: --models modified_bouc_wen");
+}
+
+/// What the fit of a measured force follows alone, what it is ridden by among them, each with what
+/// says the same inside a plant.
+std::vector<IdleOptions> idle_in_plant(const std::vector<Option>& ride) {
+  IdleOptions ridden{.names = {}, .right = "dashpot rank or ride, with the models found"};
+  for (const Option& option : ride) ridden.names.push_back(option.long_name());
+  return {{{"--leave-out"},
+           "",
+           "'held_back' of the plant says which share of each recording judges the fit"},
+          {{"--prior"}, "", "state --bounds, or a range of the plant's parameters"},
+          {{"--search", "--budget"}, "", "--starts says how many starts are tried"},
+          {{"--dataset", "--no-recognise"}, "", "the plant says which channel is which"},
+          {{"--figures"}, "", "the page has its figures"},
+          {{"--pdf"}, "", "print the page, report.html, from a browser"},
+          {{"--fresh"}, "", "leave it out: every fit is made anew"},
+          {{"--units"}, "", "leave it out: results are in SI"},
+          {{"--allow-active"}, "", "leave it out: models are kept as they fit best"},
+          {{"--traces", "--covariance", "--validate", "--from", "--force-offset",
+            "--velocity-cutoff", "--keep-inertia", "--verbose"},
+           "",
+           "leave it out: no force is measured"},
+          std::move(ridden)};
 }
 
 std::string value_text(const FittedParameter& p) { return format_number(p.value, 5); }
@@ -241,6 +249,14 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
                                           : "one sample ahead; nothing measures the road")
           : "Nothing could be fitted: " + best.report.message;
 
+  // What speaks against them stands first in the files; the terminal has it as warnings.
+  DocumentSection doubts{
+      .name = "doubts", .title = "In doubt", .paragraphs = {}, .audience = Audience::Files};
+  for (const InPlantFit& fit : fits)
+    for (const std::string& warning : fit.report.warnings)
+      doubts.remarks.push_back(fit.model + ": " + warning);
+  if (!doubts.remarks.empty()) document.sections.push_back(std::move(doubts));
+
   // The models beside each other, where there are several.
   if (fits.size() > 1) {
     DocumentTable laws{.title = "Models, by the worst sensor on the time held back",
@@ -297,7 +313,7 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
 
 }  // namespace
 
-std::vector<Option> in_plant_options(InPlantSettings& settings) {
+std::vector<Option> in_plant_options(InPlantSettings& settings, const std::vector<Option>& ride) {
   std::vector<std::string> grades;
   for (const SensorGrade& grade : sensor_grades())
     if (grade.sensors[0] > 0) grades.push_back(grade.name);
@@ -308,6 +324,7 @@ std::vector<Option> in_plant_options(InPlantSettings& settings) {
            .value = "PLANT",
            .takes = Takes::File,
            .default_text = "a bench that measures the damper's force",
+           .idles = idle_in_plant(ride),
            .details = "; the models of --models are identified as part of it, with its unknown "
                       "numbers: laws in free run, others along the best of these laws"},
           {.names = "--grade",
@@ -327,7 +344,7 @@ std::vector<Option> in_plant_options(InPlantSettings& settings) {
 
 int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console) {
   // All that can be wrong is found before the work.
-  require_meaning(settings);
+  require_named_models(settings.fit.models);
   const InPlantSetup setup = read_in_plant_setup(asked.plant);
   for (const std::string& model : settings.fit.models)
     require_model_for_plant(model, setup, "--models");

@@ -13,7 +13,8 @@ struct InPlantSettings {
   std::string grade = InPlantOptions().grade;
   std::vector<std::string> profiles;
 };
-std::vector<Option> in_plant_options(InPlantSettings& settings);
+/// `ride`: the options of a ride with the models found, which have no effect inside a plant.
+std::vector<Option> in_plant_options(InPlantSettings& settings, const std::vector<Option>& ride);
 
 /// Identifies the models asked for as the damper of a plant from its recordings: prints and
 /// writes a report, and a model file per model. Throws UsageError at settings that have no meaning

@@ -69,27 +69,11 @@ Task recorded_task(const std::string& path, Console& console) {
           "measured, " + record.name};
 }
 
-/// Throws UsageError at an option of the motion or the wanted force that another one leaves without
-/// effect.
+/// Throws UsageError at an amplitude of the wanted force where that is no sine.
 void require_effect(const TrackSettings& settings) {
   if (settings.force > 0 && settings.wanted != "sine")
     throw UsageError("--force", "is the amplitude of a sine, and the wanted force is random",
                      "with --wanted sine");
-
-  // A recording has its motion, its force and its rate.
-  if (settings.recording.empty()) return;
-  const TrackSettings usual;
-  for (const auto& [option, is_said] :
-       {std::pair{"--wanted", settings.wanted != usual.wanted},
-        {"--band", settings.band != usual.band},
-        {"--motion", settings.motion != usual.motion},
-        {"--amplitude", settings.amplitude != usual.amplitude},
-        {"--frequency", settings.frequency != usual.frequency},
-        {"--duration", settings.duration != usual.duration},
-        {"--sample-rate", settings.sample_rate != usual.sample_rate}})
-    if (is_said)
-      throw UsageError(option, "has no effect with --recording, which is followed as it is",
-                       "leave one of them out");
 }
 
 Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverOptions driver,
@@ -333,7 +317,10 @@ std::vector<Option> task_options(TrackSettings& s) {
            .target = &s.recording,
            .help = "take motion and wanted force from the first record of this file or folder",
            .value = "PATH",
-           .takes = Takes::File},
+           .takes = Takes::File,
+           .idles = {{{"--wanted", "--force", "--band", "--motion", "--amplitude", "--frequency",
+                       "--duration", "--sample-rate"},
+                      ", which is followed as it is"}}},
           {.names = "--sample-rate",
            .target = &s.sample_rate,
            .help = "commands per second; that of the recording where there is one",

@@ -228,7 +228,7 @@ int run_watch(const WatchSettings& settings, Console& console) {
   const std::vector<WatchedQuantity> quantities = watch_charts(watched, state.days(), options);
 
   // What they say.
-  for (const std::string& day : odd_reference_days(quantities, state.days())) console.warn(day);
+  for (const std::string& day : odd_days(quantities, state.days())) console.warn(day);
   const Watched told{watched, state.days(), quantities, options, left_out};
   Document document = watch_document(told);
   document.command = console.command_line();

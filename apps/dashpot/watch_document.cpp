@@ -311,7 +311,7 @@ Document watch_document(const Watched& watched) {
       charts.remarks.push_back("Also: " + alarm_text(watched, q) + ".");
   for (const std::string& doubt : hardly_apart(watched.plant))
     charts.remarks.push_back("In doubt: " + doubt + ".");
-  for (const std::string& day : odd_reference_days(watched.quantities, watched.days))
+  for (const std::string& day : odd_days(watched.quantities, watched.days))
     charts.remarks.push_back("In doubt: " + day + ".");
   for (const std::string& why : watched.left_out)
     charts.remarks.push_back("Left out: " + why + ".");

@@ -61,6 +61,23 @@ TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a m
   CHECK_CLOSE(model.model->force({0, 1, 0}, {}), 34, 0.2, 0);
 }
 
+TEST_CASE("identify --in: what speaks against a result stands in its files too" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder;
+  folder.write("pushed.csv", pushed_mass());
+  const TemporaryFolder elsewhere;
+  const std::string results = elsewhere.path().string();
+  const ProgramResult result = run_dashpot(
+      "identify " + folder.path().string() +
+      " --in oscillator,mass=2,damping=unknown,stiffness=5N/mm,force=push,displacement=x "
+      "--models tanh_guo --starts 3 --output " +
+      results);
+  const std::string doubt = "tanh_guo: damping and A2 cannot be told apart by these sensors";
+  CHECK(contains(result.output, doubt));
+  for (const char* page : {"/report.html", "/report.md"})
+    CHECK(contains(read_file(results + page), doubt));
+}
+
 TEST_CASE("identify --in: what cannot be used is said before the work" *
           doctest::test_suite("long")) {
   const TemporaryFolder folder;
@@ -74,11 +91,11 @@ TEST_CASE("identify --in: what cannot be used is said before the work" *
   CHECK(contains(output(plant + " --models family_gated"),
                  "'family_gated' is a model of many dampers, and a plant holds one"));
   CHECK(contains(output(plant + " --models dahl --leave-out current"),
-                 "--leave-out: has no meaning with --in; 'held_back'"));
+                 "--leave-out: has no effect with --in; 'held_back'"));
   CHECK(contains(output(plant + " --models dahl --asymmetric"), "--asymmetric: has no meaning"));
   for (const char* option : {"--force-offset none", "--velocity-cutoff 10", "--keep-inertia",
                              "--pdf", "--fresh", "--plant savaresi_spelta"})
-    CHECK(contains(output(plant + " --models dahl " + option), "has no meaning with --in"));
+    CHECK(contains(output(plant + " --models dahl " + option), "has no effect with --in"));
   CHECK(contains(output(plant + " --models dahl"), "leaves 2 samples to fit"));
   CHECK(contains(output("--in oscillator,mass=2,force=psh,displacement=x --models dahl"),
                  "has no column 'psh'; it has 'time [s]', 'push [N]', 'x [mm]'"));

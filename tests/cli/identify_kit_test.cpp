@@ -164,5 +164,5 @@ TEST_CASE("identify --from: a fit that starts where another one ended, and files
   CHECK(contains(twice.output, "as another of the files to start from is"));
   const ProgramResult plant = run_dashpot("identify x.csv --in y.yaml --from " + bingham + output);
   CHECK(plant.exit_code == 2);
-  CHECK(contains(plant.output, "has no meaning with --in"));
+  CHECK(contains(plant.output, "has no effect with --in"));
 }

@@ -138,8 +138,18 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   std::filesystem::remove(again + "/ride_7.csv");
   CHECK(contains(run_dashpot("bench --in " + car + " --motions 10x1 --output " + again).output,
                  "a plant is moved by its road or a force"));
+  for (const auto& [option, said] :
+       {std::pair{"--levels 0,1,2 --hold 99 --duration 2",
+                  "--hold: 3 levels of 99 s each do not fit into a ride of 2 s; --duration 297"},
+        {"--wear force=-2", "--wear: force is -2, more than the whole; force=-0.1, 10 % less"},
+        {"--wear force=-0.1,force=-0.2", "--wear: force is stated twice"}}) {
+    const ProgramResult refused =
+        run_dashpot("bench --in " + car + ' ' + option + " --output " + again);
+    CHECK(contains(refused.output, said));
+    CHECK(refused.exit_code != 0);
+  }
   CHECK(contains(run_dashpot("bench --grade exact --output " + again).output,
-                 "--grade: goes with --in"));
+                 "--grade: has no effect without --in"));
 
   // The same observer as C.
   const std::string c = (folder.path() / "ecu").string();

@@ -77,7 +77,7 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
   const Value rest = parse_json(without.output, "stdout");
   REQUIRE(rest.find("left_out")->items().size() == 1);
   CHECK(contains(rest.find("left_out")->items()[0].as_string(), "day_9.csv: is empty"));
-  CHECK(rest.find("odd_reference_days")->items().empty());
+  CHECK(rest.find("odd_days")->items().empty());
   CHECK(contains(read_file(out + "/report.md"), "Left out: "));
   CHECK(contains(read_file(out + "/report.md"), "One recording was left out"));
 

@@ -155,7 +155,13 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
   const auto wrong = [&](const std::string& text) { return message_of([&] { read(text); }); };
   CHECK(contains(wrong("time,level\n0,1\n1,2\n2,4\n"), "has no column 'push'"));
   CHECK(contains(wrong("level,push\n0,1\n1,2\n2,4\n"), "has no column of time"));
-  CHECK(contains(wrong("time,level,push\n0,1,1\n1,2,2\n5,4,3\n"), "are not uniform"));
+  CHECK(contains(wrong("time [ms],level,push\n0,1,1\n2,2,2\n4,2,2\n9,4,3\n11,4,3\n"),
+                 "ride.csv:5: its time stamps are not uniform: here they go on by 0.005 s, "
+                 "elsewhere by 0.002 s; sample the plant at one rate, or resample the recording; "
+                 "at a gap cut it into two files"));
+  CHECK(contains(wrong("time [ms],level,push\n0,1,1\n2,,2\n4,2,2\n"),
+                 "ride.csv:3: 'level' is '', not a number; write it as 12.5; a plant is run "
+                 "through all samples, so fill a gap"));
   CHECK(contains(wrong("time,level,push\n0,1,1\n1,x,2\n2,4,3\n"), "'x', not a number"));
   CHECK(contains(wrong("t,level,push\n0,1,1\n2,2,2\n4,4,3\n"),
                  "time has no unit and steps of 2, which are no seconds of a plant; name the "

@@ -145,6 +145,19 @@ TEST_CASE("observe: the force of a damper of another structure, the road not mea
   CHECK(causal_inside > 0.6);
 }
 
+TEST_CASE("observe: an accelerometer that shows gravity is told, one whose zero is usual is not") {
+  ObservedRide ride = spencer_ride(kObservedCar, 3);
+  const auto told = [&] {
+    const ObserveReport report = observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded},
+                                         {.force = {{30, 0.01}, {50, 1}}});
+    return fmt::format("{}", fmt::join(report.warnings, " | "));
+  };
+  CHECK_FALSE(contains(told(), "its zero came out"));
+  for (double& value : ride.recorded.channels.front().samples) value += 9.81;
+  REQUIRE(ride.recorded.channels.front().name == "az_body");
+  CHECK(contains(told(), "ride, az_body: its zero came out at "));
+}
+
 TEST_CASE("observe: the noise of a measured road is in what a wheel's acceleration is to show") {
   // 0.2 mm push the wheel of the filter by 0.4 m/s^2 through the tyre, and that of the car not.
   std::string file = kObservedCar;

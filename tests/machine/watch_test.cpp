@@ -282,12 +282,36 @@ TEST_CASE("watch: a reference day far from the others is told, and no usual one"
                                    .converged = true},
                       .known = {}});
     const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
-    return odd_reference_days(watch_charts(watched, days, options), days);
+    return odd_days(watch_charts(watched, days, options), days);
   };
   CHECK(told(0.03).empty());
   REQUIRE(told(-0.258).size() == 1);
   CHECK(contains(told(-0.258).front(),
                  "day 4 lies far from the other reference days: force is -26 %"));
+}
+
+TEST_CASE("watch: a judged day far above the days before is told, one far below is the chart's") {
+  const WatchedPlant watched = watched_oscillator({"force"});
+  const auto told = [&](double last) {
+    std::vector<WatchedDay> days;
+    for (const double wear : {0.034, 0.024, 0.025, 0.019, 0.03, 0.02, 0.028, 0.022, last})
+      days.push_back({.estimate = {.name = "day " + std::to_string(days.size()),
+                                   .wear = {wear},
+                                   .wear_deviation = {0.01},
+                                   .plant = {10},
+                                   .plant_deviation = {0.1},
+                                   .excitation = 1 + 0.1 * double(days.size() % 3),
+                                   .converged = true},
+                      .known = {}});
+    const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
+    return odd_days(watch_charts(watched, days, options), days);
+  };
+  CHECK(told(0.03).empty());
+  CHECK(told(-0.2).empty());
+  REQUIRE(told(0.2).size() == 1);
+  CHECK(
+      contains(told(0.2).front(),
+               "day 8 lies far above what was to be expected: force is 20 %, by the days before"));
 }
 
 TEST_CASE("watch: what was found and the days come back as they were kept") {

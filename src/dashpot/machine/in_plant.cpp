@@ -19,6 +19,7 @@
 #include "dashpot/machine/plant_start.h"
 #include "dashpot/machine/road_delay.h"
 #include "dashpot/machine/road_follower.h"
+#include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/without_road.h"
 
@@ -431,17 +432,12 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));
   residuals.describe(solved.x, report.sensors, report.traces, options.threads);
-  for (const SensorFigures& figure : report.sensors) {
+  for (const SensorFigures& figure : report.sensors)
     if (std::isinf(figure.held_back))
       report.warnings.push_back(figure.recording + ": the plant diverges on the time held back (" +
                                 figure.channel + ")");
-    if (figure.training > figure.rms)
-      report.warnings.push_back(
-          figure.recording + ", " + figure.channel + ": the model is " +
-          format_number(100 * figure.training / figure.rms, 3) +
-          " % of its rms away, further than from no motion at all: are its sign (the other way "
-          "round it is some 200 %), its unit and what it measures right?");
-  }
+  std::ranges::move(sensor_doubts(setup, report.sensors, report.traces),
+                    std::back_inserter(report.warnings));
   report.domain = domain_of(report.traces, start.scale.drive);
   report.seconds = cpu_seconds() - started;
   return report;

@@ -16,6 +16,9 @@
 
 namespace dashpot {
 
+/// A number this near to a bound of its range, as a share of itself, stands there.
+inline constexpr double kAtBound = 1e-4;
+
 /// What can be told from these sensors and this excitation, before the fit: the sensitivity of all
 /// sensors to each unknown about the start.
 struct Knowable {

@@ -246,6 +246,27 @@ std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InP
   return beyond;
 }
 
+/// Sensors whose zeros came out far from where they were looked for: the filter gives up a part of
+/// the motion and of the force in their stead.
+std::vector<std::string> far_zeros(const InPlantSetup& setup, const ObserverScale& scale,
+                                   const ObserveReport& report) {
+  constexpr double kFar = 5;  // standard deviations
+  std::vector<std::string> far;
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    const ObservedRecording* worst = &report.recordings.front();
+    for (const ObservedRecording& told : report.recordings)
+      if (std::abs(told.sensors[s].offset) > std::abs(worst->sensors[s].offset)) worst = &told;
+    const ObservedSensor& sensor = worst->sensors[s];
+    if (!(std::abs(sensor.offset) > kFar * scale.offset[s])) continue;
+    far.push_back(worst->name + ", " + sensor.channel + ": its zero came out at " +
+                  format_number(sensor.offset, 3) + ' ' + sensor.unit +
+                  ", and was looked for within " + format_number(scale.offset[s], 3) +
+                  ": motion and force lean by it, beyond their bands; take it off (an "
+                  "accelerometer may show gravity), or state 'zero' at the sensor");
+  }
+  return far;
+}
+
 /// The estimates of a run as quantities with bands.
 ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetup& setup,
                                 const PlantRecording& recording, const ObservedSamples& samples,
@@ -456,6 +477,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
+  std::ranges::move(far_zeros(setup, scale, report), std::back_inserter(report.warnings));
   std::ranges::move(beyond_models(dampers, setup, samples, report),
                     std::back_inserter(report.warnings));
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))

@@ -55,6 +55,28 @@ double mean_step(std::span<const double> stamps) {
   return rate >= 1 && std::abs(rate * step - 1) < kSame ? 1 / rate : step;
 }
 
+/// Throws Error that names the first step which is not the usual one.
+[[noreturn]] void refuse_steps(const RawTable& table, std::span<const double> stamps,
+                               double factor) {
+  constexpr double kUnusual = 0.02;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < stamps.size(); ++k) steps.push_back(stamps[k] - stamps[k - 1]);
+  const std::string right =
+      "sample the plant at one rate, or resample the recording; at a gap cut it into two files";
+  if (steps.empty()) throw Error(table.file, "has no two samples", right);
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  const auto odd = std::ranges::find_if(
+      steps, [&](double step) { return !(std::abs(step - *middle) <= kUnusual * *middle); });
+  if (odd == steps.end()) throw Error(table.file, "its time stamps are not uniform", right);
+  throw Error(table.where(static_cast<std::size_t>(odd - steps.begin()) + 1),
+              "its time stamps are not uniform: here they go on by " +
+                  format_number(factor * *odd, 3) + " s, elsewhere by " +
+                  format_number(factor * *middle, 3) + " s",
+              right);
+}
+
 /// Steps of half a second and more without a unit are samples or a logger's ms: no plant of a
 /// damper is recorded so slowly.
 void require_plausible_step(const RawTable& table, const std::string& column, double step) {
@@ -70,7 +92,8 @@ void require_numbers(const RawTable& table, const RawColumn& column) {
   if (!column.bad) return;
   throw Error(table.where(column.bad->row),
               "'" + column.name + "' is '" + column.bad->text + "', not a number",
-              "write it as 12.5, or leave such rows out");
+              "write it as 12.5; a plant is run through all samples, so fill a gap, or cut the "
+              "recording there into two files");
 }
 
 }  // namespace
@@ -121,9 +144,7 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
     if (unit.empty()) timed_without_unit = column.name;
     const double factor = unit.empty() ? 1 : require_unit(unit, table.file + ", time").factor;
     recording.sample_time = factor * mean_step(column.values);
-    if (recording.sample_time <= 0)
-      throw Error(table.file, "its time stamps are not uniform",
-                  "sample the plant at one rate, or resample the recording");
+    if (recording.sample_time <= 0) refuse_steps(table, column.values, factor);
   }
   if (recording.sample_time <= 0)
     throw Error(table.file, "has no column of time (it has " + table.column_list() + ")",

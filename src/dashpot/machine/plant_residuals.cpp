@@ -238,7 +238,7 @@ std::string PlantResiduals::name(std::size_t k) const {
 
 FittedParameter PlantResiduals::described(std::size_t k, std::span<const double> x) const {
   FittedParameter p{.name = name(k), .unit = {}, .meaning = {}, .value = size_[k] * x[k]};
-  const double margin = 1e-6 * std::max(1.0, std::abs(x[k]));
+  const double margin = kAtBound * std::max(1.0, std::abs(x[k]));
   p.at_bound = x[k] <= lower_[k] + margin || x[k] >= upper_[k] - margin;
 
   // A number of the plant has its row; a delay and a state at the beginning say what they are.

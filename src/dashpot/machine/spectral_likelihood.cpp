@@ -353,7 +353,7 @@ double SpectralLikelihood::size_at(std::size_t k, std::span<const double> x) con
 FittedParameter SpectralLikelihood::described(std::size_t k, std::span<const double> x) const {
   FittedParameter p{.name = name(k), .unit = "s", .meaning = {}, .value = size_at(k, x)};
   if (k < first_noise_) p.value *= x[k];
-  const double margin = 1e-6 * std::max(1.0, std::abs(x[k]));
+  const double margin = kAtBound * std::max(1.0, std::abs(x[k]));
   p.at_bound = x[k] <= lower_[k] + margin || x[k] >= upper_[k] - margin;
   if (k >= first_noise_) p.unit = sought_[k - first_noise_].unit;
   if (k >= plant_unknowns()) return p;

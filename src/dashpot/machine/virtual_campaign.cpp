@@ -180,6 +180,13 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
   for (const DamperModel* damper : dampers)
     if (!damper->flows())
       throw Error(damper->name(), "its states have no rates", "a published parameter set");
+  const double held = options.hold * static_cast<double>(options.levels.size());
+  if (options.levels.size() > 1 && held > options.duration)
+    throw Error("--hold",
+                std::to_string(options.levels.size()) + " levels of " +
+                    format_number(options.hold) + " s each do not fit into a ride of " +
+                    format_number(options.duration) + " s",
+                "--duration " + format_number(held) + " or more");
   const Plant plant = make_plant(*setup.model, setup.known);
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);

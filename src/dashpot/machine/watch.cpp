@@ -248,12 +248,23 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
   return quantities;
 }
 
-std::vector<std::string> odd_reference_days(const std::vector<WatchedQuantity>& quantities,
-                                            const std::vector<WatchedDay>& days) {
+std::vector<std::string> odd_days(const std::vector<WatchedQuantity>& quantities,
+                                  const std::vector<WatchedDay>& days) {
   constexpr double kOdd = 3.5;  // of normal numbers one in 2000 goes beyond
   constexpr std::size_t kFewest = 4;
   std::vector<std::string> sentences;
   for (const WatchedQuantity& q : quantities) {
+    for (std::size_t d = 0; d < days.size(); ++d) {
+      const ChartPoint& point = q.chart.points[d];
+      if (point.is_judged && point.score > kOdd)
+        sentences.push_back(
+            days[d].estimate.name + " lies far above what was to be expected: " + q.name + " is " +
+            amount_words(days[d].estimate.wear[q.place], q) + ", by the days before " +
+            amount_words(point.expected, q) + " +- " + amount_words(point.scatter, q) +
+            "; that is seldom the damper: look at the sensors and at what is known "
+            "of the day, since a fade would hide behind it");
+    }
+
     std::vector<std::size_t> reference;
     for (std::size_t d = 0; d < days.size(); ++d)
       if (days[d].estimate.converged && days[d].estimate.excitation > 0 &&

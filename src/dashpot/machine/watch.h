@@ -67,10 +67,11 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
                                           const std::vector<WatchedDay>& days,
                                           const WatchOptions& options);
 
-/// Reference days far from the other ones, a sentence each: a chart takes for healthy scatter what
-/// may be a fade.
-std::vector<std::string> odd_reference_days(const std::vector<WatchedQuantity>& quantities,
-                                            const std::vector<WatchedDay>& days);
+/// Days that are odd, a sentence each: reference days far from the other ones, since a chart takes
+/// for healthy scatter what may be a fade, and judged days far above what was to be expected, since
+/// sensors raise what a fade would lower.
+std::vector<std::string> odd_days(const std::vector<WatchedQuantity>& quantities,
+                                  const std::vector<WatchedDay>& days);
 
 /// The quantity whose alarm came first; of those of several dampers on one day the one that went
 /// furthest beyond its threshold. Null: none has.

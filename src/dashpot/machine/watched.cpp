@@ -87,10 +87,9 @@ Value to_json(const Watched& watched) {
 
   Value left_out = Value::array(), odd = Value::array();
   for (const std::string& why : watched.left_out) left_out.push_back(why);
-  for (std::string& day : odd_reference_days(watched.quantities, watched.days))
-    odd.push_back(std::move(day));
+  for (std::string& day : odd_days(watched.quantities, watched.days)) odd.push_back(std::move(day));
   told.add("left_out", std::move(left_out));
-  told.add("odd_reference_days", std::move(odd));
+  told.add("odd_days", std::move(odd));
   told.add("alarm", alarm != nullptr);
   told.add("days_between_false_alarms", watched.options.chart.days);
   told.add("reference_days", watched.options.chart.reference);

@@ -15,6 +15,7 @@
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_of_matrices.h"
 #include "dashpot/machine/plant_start.h"
+#include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/spectral_likelihood.h"
 #include "dashpot/numerics/linear_algebra.h"
 
@@ -309,11 +310,13 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
     const InPlantSetup found = fit_along(task, unknowns, size.force, observed, last, point, report);
     report.seconds = cpu_seconds() - started;
     if (!report.model) return report;
-    if (!last)
+    if (!last) {
       observed = observe(report.model, report.domain, found, task.fitted,
                          {.force = point.noise.force, .threads = options.threads});
-    else
-      add_traces(task, found, point.noise, recordings, report);
+      continue;
+    }
+    add_traces(task, found, point.noise, recordings, report);
+    std::ranges::move(noise_doubts(setup, report), std::back_inserter(report.warnings));
   }
   report.seconds = cpu_seconds() - started;
   return report;
