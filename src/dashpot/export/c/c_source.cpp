@@ -144,7 +144,9 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
       states.push_back(
           {std::string(state.name), std::string(state.unit), "internal state of the law"});
     if (law->lag_rate() > 0)
-      states.push_back({"coil_current", unit_of(law->drive_unit()), "current in the coil"});
+      states.push_back({"coil_current", unit_of(law->drive_unit()),
+                        law->drive_unit() == DriveUnit::Volt ? "voltage as it acts, behind its lag"
+                                                             : "current in the coil"});
   }
   return states;
 }
