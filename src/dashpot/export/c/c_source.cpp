@@ -175,6 +175,15 @@ std::string title_of(const DamperModel& model) {
   return model.name();
 }
 
+std::string known_text(const Domain& d, DriveUnit drive_unit) {
+  const auto span = [](double low, double high, const std::string& unit) {
+    return format_number(low) + " ... " + format_number(high) + " " + unit;
+  };
+  return "Known for displacements " + span(d.displacement_min, d.displacement_max, "m") +
+         ", velocities " + span(d.velocity_min, d.velocity_max, "m/s") + " and commands " +
+         span(d.current_min, d.current_max, unit_of(drive_unit)) + "; beyond, it extrapolates.";
+}
+
 Facts common_facts(const ExportedModel& model, const ExportOptions& options,
                    const CSource& source) {
   const Domain& d = model.domain;
