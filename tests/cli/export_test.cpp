@@ -147,6 +147,8 @@ TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   complains("--to c", "needs one damper");
   complains(damper + "--to d", "unknown format 'd'");
   complains(damper + "--to c --name 2x", "cannot begin names in C");
+  complains(damper + "--to c --name " + std::string(300, 'x'),
+            "name: has 300 letters; at most 100");
   complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
   complains(damper + "--to c --sample-time=-1ms", "sample time");
   complains(damper + "--to modelica --name record", "'record' has a meaning of its own");
