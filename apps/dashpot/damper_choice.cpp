@@ -62,8 +62,7 @@ ModelFile load_damper_file(const DamperChoice& choice, const std::string& comman
   return file;
 }
 
-Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console) {
-  ModelFile file = load_damper_file(choice, command, console);
+Damper damper_of(ModelFile file, const DamperChoice& choice) {
   Damper damper{.name = choice.parameters,
                 .drive_unit = file.drive_unit,
                 .model = std::move(file.model),
@@ -74,6 +73,10 @@ Damper load_damper(const DamperChoice& choice, const std::string& command, Conso
   damper.drive_min = std::max(0.0, damper.drive_min);
   damper.domain = file.domain;
   return damper;
+}
+
+Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console) {
+  return damper_of(load_damper_file(choice, command, console), choice);
 }
 
 DriverOptions driver_of(const Damper& damper, const DamperChoice& choice, DriverOptions options) {

@@ -40,6 +40,8 @@ struct Damper {
   std::optional<Domain> domain;  ///< of a model file
 };
 
+/// That of a file, which was chosen so.
+Damper damper_of(ModelFile file, const DamperChoice& choice);
 /// As load_damper_file().
 Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console);
 

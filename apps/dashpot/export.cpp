@@ -450,7 +450,8 @@ Command export_command() {
                     .target = &settings->sample_time,
                     .help = "time between two steps, as 1ms",
                     .value = "S",
-                    .default_text = "that of the model's data, or 1 ms"},
+                    .default_text = "that of the model's data, or 1 ms; of a controller or the "
+                                    "inverse of a damper 1 ms"},
 
                    // The grid of tables.
                    {.names = "--velocities",

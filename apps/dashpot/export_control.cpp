@@ -5,10 +5,12 @@
 #include <memory>
 
 #include "console.h"
+#include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_inverse.h"
+#include "dashpot/export/c/c_source.h"
 #include "dashpot/identify/judge/track.h"
 
 namespace dashpot::cli {
@@ -45,10 +47,11 @@ CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper,
   else if (damper.is_made())
     throw UsageError("--damper", "there is another damper before it", "name one");
 
-  // A note on the vehicle holds for its controller too.
+  // What is known against the vehicle holds for its controller too.
   choice.sample_time = 1000 * sample_time(options);
   auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words_of(choice)));
   for (const std::string& note : vehicle->notes) console.note(note);
+  for (const std::string& warning : vehicle->warnings) console.warn(warning);
   return dashpot::controller_block(vehicle);
 }
 
@@ -57,19 +60,30 @@ CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper,
   // The coil's limits were read as the vehicle's; here they belong to the damper.
   damper.current_max = choice.current_max;
   damper.lag_rate = choice.lag_rate;
-  const auto loaded = std::make_shared<const Damper>(load_damper(damper, "export", console));
+  ModelFile file = load_damper_file(damper, "export", console);
+  const ExportedModel known = exported_model(file);
+  const std::string origin =
+      "Of its damper: " + known.origin + ". " + known_text(known.domain, known.drive_unit);
+  const double greatest = known.domain.current_max;
+  if (damper.current_max > greatest * (1 + 1e-9))
+    console.note("a greatest drive of " + format_number(damper.current_max) + ' ' +
+                 unit_of(known.drive_unit) + " is beyond what the damper is known for, " +
+                 format_number(greatest) + ' ' + unit_of(known.drive_unit) +
+                 ": there its model extrapolates");
+  const auto loaded = std::make_shared<const Damper>(damper_of(std::move(file), damper));
   const InverseLimits limits = limits_of(driver_of(*loaded, damper), sample_time(options));
 
   // The inverse refers to the damper, so the maker keeps both alive.
   const std::shared_ptr<const InverseModel> inverse =
       find_inverse(choice.inverse, "--inverse").make(*loaded->model, limits);
 
-  return [loaded, inverse, limits](const ExportOptions& own) {
+  return [loaded, inverse, limits, origin](const ExportOptions& own) {
     return c_inverse_block(
         {.model = *inverse,
          .title = "the inverse '" + inverse->name() + "' of " + loaded->name,
          .drive_unit = loaded->drive_unit,
-         .domain = loaded->domain.value_or(usual_domain(limits.current_min, limits.current_max))},
+         .domain = loaded->domain.value_or(usual_domain(limits.current_min, limits.current_max)),
+         .origin = origin},
         own);
   };
 }

@@ -135,7 +135,11 @@ TEST_CASE("export says which damper of a family it froze, and refuses what canno
   // Tunable C: its own check runs, and its header says where each number stands.
   if (run_program("cc --version").exit_code != 0) return;
   CHECK(run_dashpot("export " + physics + " --to c --tunable" + to).exit_code == 0);
-  CHECK(contains(dashpot::read_file(folder.path() / "valve.h"), "#define VALVE_PARAMETER_GAP 6"));
+  const std::string header = dashpot::read_file(folder.path() / "valve.h");
+  CHECK(contains(header, "#define VALVE_PARAMETER_GAP 6"));
+  CHECK(
+      contains(header, "valve_model model;\n *   valve_defaults(model.state);\n *   valve_reset("));
+  CHECK(contains(header, "gap_area does not follow: set it, too"));
   const std::string at = "cd '" + folder.path().string() + "' && cc -std=c99 -Wall -Werror ";
   const ProgramResult checked =
       run_program(at + "valve.c valve_test.c -lm -o valve_test && ./valve_test");

@@ -94,6 +94,30 @@ TEST_CASE(
       "another damper"));
 }
 
+TEST_CASE(
+    "export of a controller or an inverse says what is known against its vehicle and damper") {
+  const TemporaryFolder folder;
+  const std::string to = " --to c --name x -o '" + folder.path().string() + "'";
+  const auto header = [&] { return dashpot::read_file(folder.path() / "x.h"); };
+  const ProgramResult controller =
+      run_dashpot("export --controller skyhook --damper vrths_mr_arctan --current-max 9" + to);
+  CAPTURE(controller.output);
+  for (const char* text : {"savaresi_spelta are an example: recalled, not looked up",
+                           "vrths_mr_arctan: it feeds energy into motions",
+                           "a greatest drive of 9 A is beyond what it is known for, 1 A"}) {
+    CHECK(contains(controller.output, text));
+    CHECK(contains(header(), text));
+  }
+
+  const ProgramResult inverse =
+      run_dashpot("export --parameters vrths_mr_arctan --inverse heaviside --current-max 9" + to);
+  CAPTURE(inverse.output);
+  CHECK(contains(inverse.output, "a greatest drive of 9 A is beyond what the damper is known for"));
+  for (const char* text : {"Of its damper: 1.6 kN MR damper on a press", "it feeds energy into",
+                           "commands 0 ... 1 A; beyond, it extrapolates."})
+    CHECK(contains(header(), text));
+}
+
 TEST_CASE("export writes no C over that of a model whose parameters can be set, nor the reverse") {
   const TemporaryFolder folder;
   const std::string words =
@@ -123,6 +147,8 @@ TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   complains("--to c", "needs one damper");
   complains(damper + "--to d", "unknown format 'd'");
   complains(damper + "--to c --name 2x", "cannot begin names in C");
+  complains(damper + "--to c --name " + std::string(300, 'x'),
+            "name: has 300 letters; at most 100");
   complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
   complains(damper + "--to c --sample-time=-1ms", "sample time");
   complains(damper + "--to modelica --name record", "'record' has a meaning of its own");

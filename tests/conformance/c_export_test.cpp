@@ -113,6 +113,27 @@ TEST_CASE("exported C: a name that the code has inside is refused") {
   CHECK(c_source(exported(model), {}).prefix == "dahl_damper");
 }
 
+TEST_CASE("exported C: parameters that differ by their case alone have names of their own") {
+  const auto text = parse_law_text(R"yaml(
+law: two_cases
+source: made up for a test
+parameters:
+  a: {unit: N*s/m, value: 900, bounds: [0, 1e8], form: linear, meaning: damping}
+  k: {unit: N/m, value: 500, bounds: [0, 1e8], meaning: stiffness}
+  K: {unit: N/m^3, value: 7, bounds: [0, 1e8], meaning: its growth}
+equations:
+  - "F = a*v + k*x + K*x^3"
+)yaml",
+                                   "two_cases.yaml");
+  const LawModel model = example_law(text->law());
+  const std::string header =
+      write_c_source(exported(model), {.name = "x", .settable_parameters = true}).front().content;
+  CAPTURE(header);
+  for (const char* line : {"define X_PARAMETER_A_B 2 ", "define X_PARAMETER_k 3 ",
+                           "define X_PARAMETER_K 4 ", " *   x_defaults(model.state);\n"})
+    CHECK(header.find(line) != std::string::npos);
+}
+
 TEST_CASE("exported C: what cppcheck's MISRA add-on says is listed in the header" *
           doctest::test_suite("long")) {
   if (!is_there("cppcheck")) return;

@@ -163,7 +163,9 @@ TEST_CASE("exported MEX: Octave builds it and gets the library's force" *
   checks +=
       "try\n mlp_d_mex(1); error('a scalar was taken');\ncatch e\n "
       "assert(!isempty(strfind(e.message, 'one "
-      "matrix')));\nend\n";
+      "matrix')));\nend\n"
+      "try\n mlp_d_mex(sparse(zeros(2, 3))); error('was taken');\ncatch e\n "
+      "assert(!isempty(strfind(e.message, 'not a sparse one')));\nend\n";
   folder.write("check.m", checks);
   const ProgramResult result = run_in(folder, commands + "octave-cli --norc --quiet check.m");
   CAPTURE(result.output);

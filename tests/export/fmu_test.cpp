@@ -175,6 +175,10 @@ TEST_CASE("FMU: what a parameter is at current 0 has its bounds, its slope over 
   CHECK(variable("parameter.c0_a").attribute("min").as_double(-1) == 0);
   CHECK(variable("parameter.c0_a").attribute("max").as_double() == 1e8);
   CHECK(variable("parameter.c0_b").attribute("min").empty());
+  CHECK(variable("parameter.c0_a").attribute("description").value() ==
+        std::string("viscous damping, without drive"));
+  CHECK(variable("parameter.c0_b").attribute("description").value() ==
+        std::string("viscous damping, per drive"));
 }
 
 TEST_CASE("FMU: units have their SI factors") {

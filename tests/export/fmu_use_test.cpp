@@ -190,6 +190,16 @@ TEST_CASE("FMU: a law's parameters can be set, within their bounds, and hold fro
     for (std::size_t k = 1; k < 20; ++k) bouc_wen().advance(run[k - 1], run[k], kStep, state);
     other.advance(run[19], run[20], kStep, state);
     CHECK_CLOSE(simulate(instance, run, 19, 21).back(), other.force(run[20], state), 1e-12, 1e-9);
+    // At a communication point before its inputs: the step that ends there keeps the old one, and
+    // sees inputs that are linear all the same.
+    FmuInstance early(fmu, false);
+    early.initialize(run[0]);
+    simulate(early, run, 0, 19);
+    CHECK(early.step(18 * kStep, kStep) == 0);
+    CHECK(early.set(references, values) == 0);
+    CHECK(early.set(run[19]) == 0);
+    CHECK(early.get("parameter.lag_rate") == 60);
+    CHECK_CLOSE(simulate(early, run, 19, 21).back(), other.force(run[20], state), 1e-12, 1e-9);
     // Outside the bounds of the law's table nothing changes.
     CHECK(instance.set({1, references[2]}, {0.5, -1.0}) == 3);
     CHECK(says(instance, "parameter.lag_rate = -1 is outside 0.001 ... 1e+06"));

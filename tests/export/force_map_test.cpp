@@ -56,6 +56,19 @@ TEST_CASE("force map: a hysteresis settles to its plateau") {
               values[law.index_of("kappa_w")] + values[law.index_of("f0")], 1e-9, 0);
 }
 
+TEST_CASE("force map: a stroke is as long whatever the sample time is") {
+  // Dahl: at 2 mm/s it takes all of the two seconds to slip.
+  const Law& law = find_law("dahl");
+  std::vector<double> values;
+  for (const ParamInfo& info : law.params) values.push_back(info.value);
+  values[law.index_of("rho")] = 500;
+  const LawModel model = LawModel::constant(law, values);
+  const double slow = force_map(exported(model), 1e-3, {0.002}, {1}).at(0, 0);
+  CHECK(slow > 0.8 * values[law.index_of("kappa_w")]);
+  for (const double fast : {2e-4, 2e-5, 1e-6})
+    CHECK_CLOSE(force_map(exported(model), fast, {0.002}, {1}).at(0, 0), slow, 1e-6, 0);
+}
+
 TEST_CASE("tables on a grid of the user's: what lies beyond the data says so") {
   const LawModel model = viscous();
   const ExportOptions options{.name = "m", .velocities = {-0.2, 0, 0.5}, .currents = {0, 0.84, 3}};

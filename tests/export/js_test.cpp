@@ -278,6 +278,7 @@ console.log(Object.keys(damper).sort().join(), model.name, model.kind, model.sam
 console.log(model.inputs.map(({name, unit, low, high}) => [name, unit, low, high].join()).join(' '));
 console.log(model.origin === '</script> \u2028 \u{1F600} \u202e', of('lag_rate').value, of('lag_rate').unit);
 try { damper.create({gain: 1}); } catch (error) { console.log(error.message); }
+try { damper.create({lag_rate: '1e2 Hz'}); } catch (error) { console.log(error.message); }
 try { damper.step(new Float64Array(2), 0, 0, 0); } catch (error) { console.log(error.message); }
 )");
   const std::string output = run_program("node '" + path.string() + "'").output;
@@ -285,5 +286,6 @@ try { damper.step(new Float64Array(2), 0, 0, 0); } catch (error) { console.log(e
   CHECK(contains(output, "advance,create,force,model,reset,step bingham law 0.002 true\n"));
   CHECK(contains(output,
                  "displacement,m,-0.02,0.02 velocity,m/s,-0.3,0.3 current,A,0,2\ntrue 100 1/s\n"));
-  CHECK(contains(output, "gain is no parameter of bingham\na state has "));
+  CHECK(contains(
+      output, "gain is no parameter of bingham\nlag_rate is 1e2 Hz, not a number\na state has "));
 }

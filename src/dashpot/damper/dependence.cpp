@@ -59,4 +59,13 @@ std::string coefficient_unit(std::string_view unit, Form form, std::size_t index
   return text.append("*").append(drive).append(")");
 }
 
+std::string_view coefficient_place(Form form, std::size_t index) {
+  constexpr std::array<std::string_view, 4> kPowers{", without drive", ", per drive",
+                                                    ", per drive squared", ", per drive cubed"};
+  constexpr std::array<std::string_view, 3> kOfExponential{", without drive", ", in saturation",
+                                                           ", rate of the change between the two"};
+  if (form == Form::Constant) return "";
+  return is_polynomial(form) ? kPowers[index] : kOfExponential[index];
+}
+
 }  // namespace dashpot

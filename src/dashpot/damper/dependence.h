@@ -31,5 +31,7 @@ std::string coefficient_name(std::string_view param, Form form, std::size_t inde
 /// model).
 std::string coefficient_unit(std::string_view unit, Form form, std::size_t index,
                              DriveUnit drive_unit);
+/// What it is of the parameter: ", without drive", ", in saturation"; empty for a constant one.
+std::string_view coefficient_place(Form form, std::size_t index);
 
 }  // namespace dashpot

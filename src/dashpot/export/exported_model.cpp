@@ -57,9 +57,13 @@ double export_sample_time(const ExportedModel& model, const ExportOptions& optio
 }
 
 std::string c_name(const std::string& name) {
+  constexpr std::size_t kLongest = 100;  // files have it with an ending, and most systems take 255
   if (!is_c_name(name))
     throw Error("name", "'" + name + "' cannot begin names in C",
                 "letters, digits and _, no digit first");
+  if (name.size() > kLongest)
+    throw Error("name", "has " + std::to_string(name.size()) + " letters",
+                "at most " + std::to_string(kLongest));
   return name;
 }
 

@@ -264,6 +264,12 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
   for (const ChosenDamper& damper : chosen) {
     add(damper.notes, vehicle.notes);
     add(damper.warnings, vehicle.warnings);
+    if (!damper.is_passive() && drive.unit != DriveUnit::None &&
+        drive.high > damper.drive_max * (1 + 1e-9))
+      add({damper.name + ": a greatest drive of " + drive.text(drive.high) +
+           " is beyond what it is known for, " + drive.text(damper.drive_max) +
+           ": there its model extrapolates"},
+          vehicle.notes);
     vehicle.dampers.push_back(mount(damper, drive, words));
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);

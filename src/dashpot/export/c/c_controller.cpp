@@ -19,7 +19,7 @@ constexpr std::size_t kControllerTestSteps = 200;
 constexpr const char* kControllerAbout =
     R"(Dampers: @dampers@.
 Damping from @damping_min@ to @damping_max@ N*s/m over commands from @low@ to @high@@unit@.@inverse@
-@sensors@)";
+@sensors@@remarks@)";
 
 constexpr const char* kControllerHeader = R"(/* @title@
  *
@@ -87,6 +87,15 @@ std::string inverse_text(const MountedDamper& damper) {
   return text.empty() ? "" : text + ".";
 }
 
+/// What is known against its numbers, a line each.
+std::string remarks_text(const Vehicle& vehicle) {
+  std::string text;
+  for (const std::string& note : vehicle.notes) text += '\n' + c_comment(note).text() + '.';
+  for (const std::string& warning : vehicle.warnings)
+    text += "\nWARNING: " + c_comment(warning).text() + '.';
+  return text;
+}
+
 std::string without_marks(std::string text) {
   for (char& c : text)
     if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '_';
@@ -123,6 +132,7 @@ std::vector<std::pair<std::string, CText>> facts(const Vehicle& vehicle, const C
                                                             : " " + to_string(vehicle.drive_unit))},
           {"inverse", inverse.empty() ? CText() : "\n" + c_comment(inverse)},
           {"sensors", CText::own(sensors_text(vehicle, path))},
+          {"remarks", CText::own(remarks_text(vehicle))},
           {"deviations", CText::own(std::string(c_deviations()))},
           {"version", c_comment(options.version)},
           {"struts", CText::own(std::to_string(struts))},

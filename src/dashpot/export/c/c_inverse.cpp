@@ -7,6 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
@@ -134,7 +135,8 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
   const std::string about =
       filled(kInverseAbout, {{"unit", CText::own(unit)},
                              {"low", CText::own(format_number(limits.current_min))},
-                             {"high", CText::own(format_number(limits.current_max))}});
+                             {"high", CText::own(format_number(limits.current_max))}}) +
+      (inverse.origin.empty() ? "" : ' ' + inverse.origin);
   const std::vector<std::pair<std::string, CText>> values{
       {"title", c_comment(inverse.title)},
       {"about", c_comment(about)},
@@ -175,7 +177,8 @@ CBlock c_inverse_block(const InverseFile& inverse, const ExportOptions& options)
   return c_inverse_block({.model = model,
                           .title = "the inverse network " + network.name,
                           .drive_unit = inverse.drive_unit,
-                          .domain = inverse.domain},
+                          .domain = inverse.domain,
+                          .origin = known_text(inverse.domain, inverse.drive_unit)},
                          options);
 }
 

@@ -26,7 +26,8 @@ struct ExportedInverse {
   const InverseModel& model;
   std::string title;
   DriveUnit drive_unit = DriveUnit::Ampere;
-  Domain domain;  ///< of the motions along which it is checked
+  Domain domain;       ///< of the motions along which it is checked
+  std::string origin;  ///< sentences on where it comes from and what it is known for
 };
 
 /// The inverse as a block, with a run that checks it. Throws Error where it has no C code.

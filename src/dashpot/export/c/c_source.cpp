@@ -28,7 +28,7 @@ constexpr const char* kDamperHeader = R"(/* @title@.
  * extrapolates.
  *
  *   damper_model model;
- *   damper_reset(&model, &input);
+@defaults_first@ *   damper_reset(&model, &input);
  *   for (;;) force = damper_step(&model, &input);
  *
  * C99 with math.h: no heap, no files, no variables outside a damper_model.
@@ -144,9 +144,25 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
       states.push_back(
           {std::string(state.name), std::string(state.unit), "internal state of the law"});
     if (law->lag_rate() > 0)
-      states.push_back({"coil_current", unit_of(law->drive_unit()), "current in the coil"});
+      states.push_back({"coil_current", unit_of(law->drive_unit()),
+                        law->drive_unit() == DriveUnit::Volt ? "voltage as it acts, behind its lag"
+                                                             : "current in the coil"});
   }
   return states;
+}
+
+/// The names of parameters as macros end with them: in capitals, but where two would be alike (`a`
+/// and `A`) as they are.
+std::vector<std::string> macro_names(const std::vector<CParameter>& parameters) {
+  std::vector<std::string> capitals, names;
+  for (const CParameter& parameter : parameters) {
+    std::string& name = capitals.emplace_back(parameter.name);
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
+  }
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    names.push_back(std::ranges::count(capitals, capitals[k]) == 1 ? capitals[k]
+                                                                   : parameters[k].name);
+  return names;
 }
 
 }  // namespace
@@ -157,6 +173,15 @@ std::string title_of(const DamperModel& model) {
     if (std::ranges::find(names, model.name()) != names.end())
       return std::string(model_info(model.name()).title);
   return model.name();
+}
+
+std::string known_text(const Domain& d, DriveUnit drive_unit) {
+  const auto span = [](double low, double high, const std::string& unit) {
+    return format_number(low) + " ... " + format_number(high) + " " + unit;
+  };
+  return "Known for displacements " + span(d.displacement_min, d.displacement_max, "m") +
+         ", velocities " + span(d.velocity_min, d.velocity_max, "m/s") + " and commands " +
+         span(d.current_min, d.current_max, unit_of(drive_unit)) + "; beyond, it extrapolates.";
 }
 
 Facts common_facts(const ExportedModel& model, const ExportOptions& options,
@@ -200,6 +225,8 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
     return with_prefix(in_precision(text, options.c_precision()), source.prefix);
   };
   Facts facts = facts_of(model, options, source);
+  facts.emplace_back("defaults_first",
+                     CText::own(settable ? " *   damper_defaults(model.state);\n" : ""));
   source.header =
       filled(finished(filled(kDamperHeader, facts) + std::string(c_text("damper_api.h")) +
                       (code.has_derivatives ? kDerivatives : "") + (settable ? kDefaults : "") +
@@ -229,13 +256,13 @@ std::vector<ExportedFile> write_c_source(const ExportedModel& model, const Expor
   // Where each parameter that may be set stands.
   if (!source.parameters.empty()) {
     std::string places = "\n/* Parameters, as state[...]; they may be set between two steps. */\n";
+    const std::vector<std::string> names = macro_names(source.parameters);
     for (std::size_t k = 0; k < source.parameters.size(); ++k) {
       const CParameter& parameter = source.parameters[k];
-      std::string name = parameter.name;
-      std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
       places +=
-          "#define DAMPER_PARAMETER_" + name + " " + std::to_string(source.first_parameter + k) +
-          " /* " + parameter.unit + ", " + c_comment(parameter.meaning).text() +
+          "#define DAMPER_PARAMETER_" + names[k] + " " +
+          std::to_string(source.first_parameter + k) + " /* " + parameter.unit + ", " +
+          c_comment(parameter.meaning).text() +
           (std::isfinite(parameter.lower) && std::isfinite(parameter.upper)
                ? "; " + format_number(parameter.lower) + " ... " + format_number(parameter.upper)
                : "") +

@@ -39,6 +39,9 @@ using Facts = std::vector<std::pair<std::string, CText>>;
 /// domain), sample_time (s) and version.
 Facts common_facts(const ExportedModel& model, const ExportOptions& options, const CSource& source);
 
+/// "Known for displacements -0.02 ... 0.02 m, velocities ...; beyond, it extrapolates."
+std::string known_text(const Domain& domain, DriveUnit drive_unit);
+
 /// The title of a model in the registry; the name of one that is not there.
 std::string title_of(const DamperModel& model);
 

@@ -270,10 +270,11 @@ std::vector<CParameter> c_parameters(const FamilyModel& model) {
     for (const MemberField& field : member_fields()) {
       if (field.field != range.field) continue;
       const double value = member.*field.field, span = range.max - range.min;
+      const bool is_gap = field.field == &FamilyMember::gap;
       parameters.push_back(
           {std::string(field.name), std::string(field.unit),
            "of this damper; the family was fitted on " + format_number(range.min) + " to " +
-               format_number(range.max),
+               format_number(range.max) + (is_gap ? "; gap_area does not follow: set it, too" : ""),
            value, std::min(value, std::max(0.5 * range.min, range.min - kBeyond * span)),
            std::max(value, range.max + kBeyond * std::max(span, 0.2 * range.max))});
     }

@@ -255,7 +255,8 @@ std::vector<CParameter> c_parameters(const LawModel& model) {
       CParameter& row = parameters.emplace_back();
       row = {coefficient_name(info.name, form, index),
              coefficient_unit(info.unit, form, index, model.drive_unit()),
-             std::string(info.meaning), values.coefficients[k][index]};
+             std::string(info.meaning) + std::string(coefficient_place(form, index)),
+             values.coefficients[k][index]};
       // The first coefficient of a polynomial is the parameter itself at current 0; records at
       // other currents may have left it beyond the bounds there.
       if (is_polynomial(form) && index == 0) {

@@ -103,24 +103,13 @@ std::vector<double> run_along(const DamperModel& model, Fmu& fmu, const Domain& 
   return sizes;
 }
 
-std::string domain_text(const ExportedModel& model) {
-  const Domain& d = model.domain;
-  const auto span = [](double low, double high, const std::string& unit) {
-    return format_number(low) + " ... " + format_number(high) + " " + unit;
-  };
-  return "Known for displacements " + span(d.displacement_min, d.displacement_max, "m") +
-         ", velocities " + span(d.velocity_min, d.velocity_max, "m/s") + " and commands " +
-         span(d.current_min, d.current_max, unit_of(model.drive_unit)) +
-         "; beyond, it extrapolates.";
-}
-
 void describe(const ExportedModel& model, Fmu& fmu) {
   const ModelInfo info = info_of(model.model);
   fmu.title = info.title;
   fmu.equation = info.equation;
   fmu.origin = model.origin;
   fmu.remarks = {"Source: " + std::string(info.source) + ".", std::string(info.remarks),
-                 domain_text(model)};
+                 known_text(model.domain, model.drive_unit)};
   fmu.steps = {kCoSimulation};
   if (fmu.grid > 0)
     fmu.steps.push_back(

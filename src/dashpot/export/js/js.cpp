@@ -51,6 +51,7 @@ function create(parameters = {}) {
   for (const [name, value] of Object.entries(parameters)) {
     const known = model.parameters.find((parameter) => parameter.name === name);
     if (!known) throw new RangeError(`${name} is no parameter of ${model.name}`);
+    if (!Number.isFinite(value)) throw new RangeError(`${name} is ${value}, not a number`);
     state[known.place] = value;
   }
   reset(state, 0, 0, 0);

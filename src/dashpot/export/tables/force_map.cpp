@@ -14,7 +14,7 @@ namespace {
 constexpr int kHalf = 15;  // velocities of either sign
 constexpr int kCurrents = 11, kForces = 31;
 constexpr double kLongest = 2.0;  // s, of a stroke
-constexpr double kMostSteps = 2000;
+constexpr double kMostSteps = 20000;
 
 double settled_force(const ExportedModel& model, double velocity, double current,
                      double sample_time) {
@@ -24,13 +24,16 @@ double settled_force(const ExportedModel& model, double velocity, double current
   const double wanted =
       std::min(kLongest, half > 0 ? half / std::max(std::abs(velocity), 1e-12) : kLongest);
 
-  // A stroke of half the domain, or of two seconds, in steps of the sample time.
-  const double steps = std::clamp(std::ceil(wanted / sample_time), 1.0, kMostSteps);
+  // A stroke of half the domain, or of two seconds, in steps of the sample time; longer ones where
+  // these would be too many, so that it is as long whatever the data's rate is.
+  const double own_steps = std::max(1.0, std::ceil(wanted / sample_time));
+  const double steps = std::min(own_steps, kMostSteps);
+  const double step = own_steps > kMostSteps ? wanted / steps : sample_time;
   std::vector<DamperInput> stroke;
   for (double k = 0; k <= steps; ++k)
-    stroke.push_back({middle + velocity * (k - steps) * sample_time, velocity, current});
+    stroke.push_back({middle + velocity * (k - steps) * step, velocity, current});
 
-  const double force = force_along(model.model, stroke, sample_time).back();
+  const double force = force_along(model.model, stroke, step).back();
   if (!std::isfinite(force))
     throw Error(model.model.name(), "has no finite force at " + format_number(velocity) +
                                         " m/s and " + format_number(current) + " " +

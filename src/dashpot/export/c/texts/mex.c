@@ -20,8 +20,10 @@ void mexFunction(int outputs, mxArray* output[], int inputs, const mxArray* inpu
   damper_model model;
   double* force;
   mwSize count, k;
-  if ((inputs != 1) || !mxIsDouble(input[0]) || mxIsComplex(input[0]) || (mxGetN(input[0]) != 3)) {
-    mexErrMsgTxt("it takes one matrix with the columns displacement, velocity, command");
+  if ((inputs != 1) || !mxIsDouble(input[0]) || mxIsComplex(input[0]) || mxIsSparse(input[0]) ||
+      (mxGetN(input[0]) != 3)) {
+    mexErrMsgTxt(
+        "it takes one matrix, not a sparse one, with the columns displacement, velocity, command");
   }
   if (outputs > 1) {
     mexErrMsgTxt("it gives one column, the force");

@@ -104,6 +104,13 @@ static int fmu_may(const FmuInstance* f, const char* function, int modes) {
   return 1;
 }
 
+static void fmu_take_parameters(FmuState* from, FmuState* to) {
+  int k;
+  for (k = FMU_FIRST_PARAMETER; k < FMU_FIRST_PARAMETER + FMU_PARAMETERS; ++k) {
+    fmu_numbers(to)[k] = fmu_numbers(from)[k];
+  }
+}
+
 static void fmu_update(FmuData* d) {
   if (d->stale == 0) {
     return;
@@ -112,8 +119,11 @@ static void fmu_update(FmuData* d) {
   if ((d->mode & (FMU_INSTANTIATED | FMU_INITIALIZATION)) != 0) {
     fmu_rest(d->input, &d->state);
   } else if (d->since > 0) {
-    d->state = d->past;
-    fmu_move(d->from, d->input, d->since, &d->state);
+    /* The step has the parameters of its start; those that were set since hold from its end on. */
+    FmuState moved = d->past;
+    fmu_move(d->from, d->input, d->since, &moved);
+    fmu_take_parameters(&d->state, &moved);
+    d->state = moved;
   }
 }
 
@@ -245,7 +255,6 @@ static int fmu_check_new_value(const FmuInstance* f, const char* function, unsig
 static int fmu_set(FmuInstance* f, const char* function, const unsigned* references, size_t count,
                    const double* values) {
   FmuData* d;
-  int parameters = 0;
   size_t k;
   if (!fmu_may(f, function, FMU_ANY & ~FMU_TERMINATED) ||
       !fmu_takes(f, function, references, count, count) ||
@@ -259,18 +268,11 @@ static int fmu_set(FmuInstance* f, const char* function, const unsigned* referen
     if (fmu_check_new_value(f, function, references[k], values[k]) != FMU_OK) {
       return FMU_ERROR;
     }
-    parameters = parameters || (references[k] >= FMU_PARAMETER);
-  }
-  if (parameters && (d->mode == FMU_STEP)) {
-    fmu_settle(d); /* the step that ends here was made with the old ones */
   }
 
   /* Set them; what follows from them is computed when it is asked for. */
   for (k = 0; k < count; ++k) {
     *fmu_place(d, references[k]) = values[k];
-  }
-  if (parameters) {
-    d->past = d->state;
   }
   if ((count > 0) && ((d->mode & (FMU_INSTANTIATED | FMU_INITIALIZATION | FMU_STEP)) != 0)) {
     d->stale = 1;
