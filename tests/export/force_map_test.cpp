@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "conformance/laws.h"
 #include "dashpot/base/text.h"
 #include "dashpot/record/readers/mat_guard.h"
 #include "export/example_models.h"
@@ -47,8 +48,7 @@ TEST_CASE("force map: the settled force, by the law in closed form, and its inve
 TEST_CASE("force map: a hysteresis settles to its plateau") {
   // Dahl: F = kappa_w + f0 beyond some 1 / rho
   const Law& law = find_law("dahl");
-  std::vector<double> values;
-  for (const ParamInfo& info : law.params) values.push_back(info.value);
+  std::vector<double> values = defaults(law);
   values[law.index_of("rho")] = 5000;
   const LawModel model = LawModel::constant(law, values);
   const ForceMap map = force_map(exported(model), 1e-3);
@@ -59,8 +59,7 @@ TEST_CASE("force map: a hysteresis settles to its plateau") {
 TEST_CASE("force map: a stroke is as long whatever the sample time is") {
   // Dahl: at 2 mm/s it takes all of the two seconds to slip.
   const Law& law = find_law("dahl");
-  std::vector<double> values;
-  for (const ParamInfo& info : law.params) values.push_back(info.value);
+  std::vector<double> values = defaults(law);
   values[law.index_of("rho")] = 500;
   const LawModel model = LawModel::constant(law, values);
   const double slow = force_map(exported(model), 1e-3, {0.002}, {1}).at(0, 0);

@@ -107,6 +107,23 @@ WatchedPlant watched_rig(const InPlantSetup& setup) {
           .noise = {.force = {{0.5, 0.02}}, .sensors = {0.02, 0.02}}};
 }
 
+/// What is told of days with these shares of force, of which six are for reference.
+std::vector<std::string> odd_days_among(const std::vector<double>& wears) {
+  const WatchedPlant watched = watched_oscillator({"force"});
+  std::vector<WatchedDay> days;
+  for (const double wear : wears)
+    days.push_back({.estimate = {.name = "day " + std::to_string(days.size()),
+                                 .wear = {wear},
+                                 .wear_deviation = {0.01},
+                                 .plant = {10},
+                                 .plant_deviation = {0.1},
+                                 .excitation = 1 + 0.1 * double(days.size() % 3),
+                                 .converged = true},
+                    .known = {}});
+  const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
+  return odd_days(watch_charts(watched, days, options), days);
+}
+
 }  // namespace
 
 TEST_CASE("normal_score: of Student's t, and the normal distribution where days are many") {
@@ -269,20 +286,8 @@ TEST_CASE("watch: a day without motion in a state of before spoils no other") {
 }
 
 TEST_CASE("watch: a reference day far from the others is told, and no usual one") {
-  const WatchedPlant watched = watched_oscillator({"force"});
-  const auto told = [&](double odd) {
-    std::vector<WatchedDay> days;
-    for (const double wear : {0.034, 0.024, 0.025, 0.019, odd, 0.02, -0.25, -0.25})
-      days.push_back({.estimate = {.name = "day " + std::to_string(days.size()),
-                                   .wear = {wear},
-                                   .wear_deviation = {0.01},
-                                   .plant = {10},
-                                   .plant_deviation = {0.1},
-                                   .excitation = 1 + 0.1 * double(days.size() % 3),
-                                   .converged = true},
-                      .known = {}});
-    const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
-    return odd_days(watch_charts(watched, days, options), days);
+  const auto told = [](double odd) {
+    return odd_days_among({0.034, 0.024, 0.025, 0.019, odd, 0.02, -0.25, -0.25});
   };
   CHECK(told(0.03).empty());
   REQUIRE(told(-0.258).size() == 1);
@@ -291,20 +296,8 @@ TEST_CASE("watch: a reference day far from the others is told, and no usual one"
 }
 
 TEST_CASE("watch: a judged day far above the days before is told, one far below is the chart's") {
-  const WatchedPlant watched = watched_oscillator({"force"});
-  const auto told = [&](double last) {
-    std::vector<WatchedDay> days;
-    for (const double wear : {0.034, 0.024, 0.025, 0.019, 0.03, 0.02, 0.028, 0.022, last})
-      days.push_back({.estimate = {.name = "day " + std::to_string(days.size()),
-                                   .wear = {wear},
-                                   .wear_deviation = {0.01},
-                                   .plant = {10},
-                                   .plant_deviation = {0.1},
-                                   .excitation = 1 + 0.1 * double(days.size() % 3),
-                                   .converged = true},
-                      .known = {}});
-    const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
-    return odd_days(watch_charts(watched, days, options), days);
+  const auto told = [](double last) {
+    return odd_days_among({0.034, 0.024, 0.025, 0.019, 0.03, 0.02, 0.028, 0.022, last});
   };
   CHECK(told(0.03).empty());
   CHECK(told(-0.2).empty());

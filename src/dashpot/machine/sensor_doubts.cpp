@@ -264,6 +264,8 @@ std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantRe
     const auto found =
         std::ranges::find(report.nuisances, "noise of " + sensor.channel, &FittedParameter::name);
     if (found == report.nuisances.end()) continue;
+
+    // Beside what the sensor shows; one that shows nothing has no share.
     double square = 0, recordings = 0;
     for (const SensorFigures& figure : report.sensors)
       if (figure.channel == sensor.channel) {
@@ -271,7 +273,7 @@ std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantRe
         recordings += 1;
       }
     const double share = found->value / std::sqrt(square / recordings);
-    if (share > kMuch)
+    if (share > kMuch && std::isfinite(share))
       doubts.push_back(sensor.channel + ": its noise was found to be " +
                        format_number(found->value, 3) + ' ' + found->unit + ", " +
                        format_number(100 * share, 3) +
