@@ -5,14 +5,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "dashpot/damper/nets/gram_matrix.h"
+
 namespace dashpot {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr Index kGramBlock = 256;  // samples of which a Gram matrix is made at a time
 
 /// The problem linearised at one point: the Gram matrix of [J r], (n + 1) x (n + 1) and divided by
 /// the number of samples, with the records' best offsets taken out of it, and these offsets; and
@@ -26,37 +26,30 @@ struct System {
   double squares() const { return gram(gram.rows() - 1, gram.cols() - 1); }
 };
 
-/// Adds up the Gram matrix. Rows are collected in a block of columns, so that the matrix is updated
-/// by products of matrices and not row by row; a record ends a block.
+/// Adds up the Gram matrix; a record is a group.
 class GramSink final : public RowSink {
  public:
   GramSink(Index columns, const FreeRunSearchOptions& options)
       : options_(options),
-        gram_(MatrixXd::Zero(columns, columns)),
-        prices_(MatrixXd::Zero(columns, columns)),
-        block_(columns, kGramBlock),
-        sums_(VectorXd::Zero(columns)) {}
+        gram_(static_cast<std::size_t>(columns)),
+        prices_(MatrixXd::Zero(columns, columns)) {}
 
   double* row() override {
-    if (filled_ == kGramBlock) flush();
-    return block_.col(filled_++).data();
+    ++n_;
+    return gram_.row();
   }
 
   void end_record() override {
-    flush();
-
     // The best offset of n samples with the column sums s and the residual sum s_r is
     // -s_r / (n (1 + offset_decay)). Eliminating it takes s s' / (n (1 + offset_decay)) out of the
     // Gram matrix.
     const double centring = options_.offsets && n_ > 0 ? 1 / (n_ * (1 + options_.offset_decay)) : 0;
-    gram_.selfadjointView<Eigen::Lower>().rankUpdate(sums_, -centring);
-    const double offset = -centring * sums_[sums_.size() - 1];
+    const double offset = -centring * gram_.end_group(centring).back();
     system_.offsets.push_back(offset);
     system_.offset_penalty += options_.offset_decay * n_ * offset * offset;
 
     count_ += n_;
     n_ = 0;
-    sums_.setZero();
   }
 
   void add_penalty(const std::vector<double>& row) override {
@@ -66,28 +59,18 @@ class GramSink final : public RowSink {
   }
 
   System system() {
-    system_.gram = gram_.selfadjointView<Eigen::Lower>();
-    system_.gram /= count_;
+    const std::vector<double> gram = gram_.matrix();
+    system_.gram = MatrixXd::Map(gram.data(), prices_.rows(), prices_.cols()) / count_;
     if (is_priced_) system_.gram += MatrixXd(prices_.selfadjointView<Eigen::Lower>());
     system_.offset_penalty /= count_;
     return std::move(system_);
   }
 
  private:
-  void flush() {
-    if (filled_ == 0) return;
-    const auto rows = block_.leftCols(filled_);
-    gram_.selfadjointView<Eigen::Lower>().rankUpdate(rows);
-    sums_ += rows.rowwise().sum();
-    n_ += static_cast<double>(filled_);
-    filled_ = 0;
-  }
-
   const FreeRunSearchOptions& options_;
-  MatrixXd gram_, prices_, block_;
-  VectorXd sums_;
+  GramMatrix gram_;
+  MatrixXd prices_;
   bool is_priced_ = false;
-  Index filled_ = 0;
   double n_ = 0, count_ = 0;  ///< samples of this record, of all before
   System system_;
 };

@@ -15,6 +15,25 @@ namespace {
 constexpr std::size_t kMaxGates = 1 + GatedNetwork::kMaxCurrents +
                                   GatedNetwork::kMaxCurrents * (GatedNetwork::kMaxCurrents + 1) / 2;
 
+/// Calls use(weights, tanh) for each neuron at the signals that it sees. Their tanhs are taken some
+/// at a time.
+template <class Use>
+void for_neurons(const GatedNetwork& network, const double* held, Use use) {
+  constexpr std::size_t kTogether = 8;
+  const std::size_t count = network.signals.size(), stride = network.neuron_stride();
+  std::array<double, kTogether> t;
+  const double *w = network.neurons.data(), *end = w + network.neurons.size();
+  while (w != end) {
+    const std::size_t taken = std::min(kTogether, static_cast<std::size_t>(end - w) / stride);
+    for (std::size_t k = 0; k < taken; ++k) {
+      const double* weights = w + k * stride;
+      t[k] = std::inner_product(weights, weights + count, held, weights[count]);
+    }
+    branchless_tanh(t.data(), taken);
+    for (std::size_t k = 0; k < taken; ++k, w += stride) use(w, t[k]);
+  }
+}
+
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
 void require_count(std::size_t count, std::size_t right, const std::string& what,
@@ -88,8 +107,7 @@ double GatedNetwork::sum(const double* linear, const double* held) const noexcep
   const double of_velocity = next_gain();
   sum += continued(linear[0], held[0], of_velocity) * of_velocity;
   for (std::size_t k = 1; k < motions(); ++k) add(held[k]);
-  for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
-    add(branchless_tanh(std::inner_product(w, w + signals.size(), held, w[signals.size()])));
+  for_neurons(*this, held, [&](const double*, double t) { add(t); });
   return sum;
 }
 
@@ -130,16 +148,14 @@ double GatedNetwork::differentiate(const double* linear, const double* held, dou
 
   // Neurons: on through tanh to their weights and to the signals, but for those at the end of their
   // range.
-  for (const double *w = neurons.data(), *end = w + neurons.size(); w != end;
-       w += neuron_stride()) {
-    const double t = branchless_tanh(std::inner_product(w, w + count, held, w[count]));
+  for_neurons(*this, held, [&](const double* w, double t) {
     const double delta = add(t) * (1 - t * t);
     for (std::size_t k = 0; k < count; ++k) {
       *by_parameters++ = delta * held[k];
       if (held[k] == linear[k]) by_signals[k] += delta * w[k];
     }
     *by_parameters++ = delta;
-  }
+  });
 
   // From the gates to the currents that they are products of.
   const double *by_current = &by_c[1], *by_product = &by_c[1 + currents];

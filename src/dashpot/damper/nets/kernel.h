@@ -137,13 +137,28 @@ struct JacobianBlocks {
 /// cost little, few enough for the Jacobians to stay in the second-level cache.
 constexpr std::size_t kBlocksAtOnce = 4;
 
-/// Sums over blocks, for normal equations. Nothing is cleared first: both add.
+/// Rows of numbers, one behind the other, for a Gram matrix.
+struct GramRows {
+  const double* at;
+  std::size_t count, columns;  ///< columns: whole cache lines, best an odd number of them
+};
+/// Rows of a Gram matrix that are made at a time.
+constexpr std::size_t kGramStrip = 24;
+
+/// Sums over samples, for normal equations. Nothing is cleared first: all add.
 struct JacobianKernel {
   /// Adds [J r]' [J r] (columns x columns, the upper triangle); to `sums`, unless it is null, the
   /// sums of J and r over the samples.
   void (*add_products)(const JacobianBlocks& blocks, double* products, double* sums) noexcept;
   /// Adds the sum of the residuals and that of their squares.
   void (*add_errors)(const JacobianBlocks& blocks, double sums[2]) noexcept;
+  /// Adds X'X of the rows X to `gram` (columns x columns, the upper triangle). `room` is for
+  /// kGramStrip rows.
+  void (*add_gram)(const GramRows& rows, double* gram, double* room) noexcept;
+  /// Derivatives go from step to step: to = by * from, where `count` rows of `columns` numbers
+  /// (whole cache lines) become as many by the first `count` numbers of each row of `by`.
+  void (*carry)(std::size_t count, std::size_t columns, const double* by, std::size_t by_step,
+                const double* from, double* to) noexcept;
 };
 /// The Jacobian kernel for a level in simd_levels().
 const JacobianKernel& jacobian_kernel(SimdLevel level);

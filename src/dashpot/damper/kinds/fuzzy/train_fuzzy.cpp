@@ -8,6 +8,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "dashpot/damper/nets/gram_matrix.h"
+
 namespace dashpot {
 namespace {
 
@@ -16,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kPerMembership = 3;  // centre, ln width, ln |slope|
-constexpr Index kGramBlock = 256;          // samples of which a Gram matrix is made at a time
 
 VectorXd unknowns_of(const Sugeno& model) {
   VectorXd x(static_cast<Index>(kPerMembership * model.memberships.size()));
@@ -37,32 +38,6 @@ void set_unknowns(Sugeno& model, const VectorXd& x) {
     m.slope = std::copysign(std::exp(x[k++]), m.slope);
   }
 }
-
-/// Sums of products of columns over all samples, less what a free offset per group takes out of
-/// them.
-class Gram {
- public:
-  explicit Gram(Index columns)
-      : matrix_(MatrixXd::Zero(columns, columns)), sums_(VectorXd::Zero(columns)) {}
-
-  void add(const MatrixXd& rows) {
-    matrix_.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
-    sums_ += rows.colwise().sum().transpose();
-  }
-  /// Ends a group. `centring`: share of its sums that its offset takes out.
-  void end_group(double centring) {
-    matrix_.selfadjointView<Eigen::Lower>().rankUpdate(sums_, -centring);
-    group_sums_.push_back(sums_);
-    sums_.setZero();
-  }
-  MatrixXd matrix() const { return matrix_.selfadjointView<Eigen::Lower>(); }
-  const std::vector<VectorXd>& group_sums() const { return group_sums_; }
-
- private:
-  MatrixXd matrix_;
-  VectorXd sums_;
-  std::vector<VectorXd> group_sums_;
-};
 
 /// The consequents that are best for the model's memberships, and what they cost.
 struct Projection {
@@ -106,13 +81,13 @@ class ReducedProblem {
   Projection project(const VectorXd& unknowns) {
     set_unknowns(model_, unknowns);
     const auto n = static_cast<Index>(model_.consequent_count());
-    const Gram gram = sum_up(n + 1, [&](std::size_t sample, auto row) {
+    const Sums sums = sum_up(n + 1, [&](std::size_t sample, auto row) {
       fill_regressors(sample, row);
       row[n] = targets_[sample];
     });
 
     // Solve the regularised normal equations for the consequents.
-    const MatrixXd matrix = gram.matrix();
+    const MatrixXd& matrix = sums.products;
     const MatrixXd normal =
         matrix.topLeftCorner(n, n) * weight() + options_.ridge * MatrixXd::Identity(n, n);
     const VectorXd right = matrix.topRightCorner(n, 1) * weight();
@@ -128,7 +103,7 @@ class ReducedProblem {
     // Each group's offset follows from what its residuals have in common.
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const double offset =
-          groups_[g].centring * (gram.group_sums()[g][n] - q.dot(gram.group_sums()[g].head(n)));
+          groups_[g].centring * (sums.by_group[g][n] - q.dot(sums.by_group[g].head(n)));
       result.offsets.push_back(offset);
       result.mean_square -=
           options_.offset_decay * static_cast<double>(groups_[g].size) * weight() * offset * offset;
@@ -142,7 +117,7 @@ class ReducedProblem {
                  VectorXd& gradient) {
     set_unknowns(model_, unknowns);
     const Index n = at.consequents.size(), m = unknowns.size();
-    const Gram gram = sum_up(n + m + 1, [&](std::size_t sample, auto row) {
+    const Sums sums = sum_up(n + m + 1, [&](std::size_t sample, auto row) {
       fill_regressors(sample, row);
       const double output = row.head(n).dot(at.consequents);
       fill_derivatives(sample, at.consequents, output, row.segment(n, m));
@@ -150,7 +125,7 @@ class ReducedProblem {
     });
 
     // Eliminate the consequents, which follow the premises.
-    const MatrixXd all = gram.matrix() * weight();
+    const MatrixXd all = sums.products * weight();
     const MatrixXd normal = all.topLeftCorner(n, n) + options_.ridge * MatrixXd::Identity(n, n);
     const MatrixXd mixed = all.block(0, n, n, m);
     matrix = all.block(n, n, m, m) - mixed.transpose() * normal.ldlt().solve(mixed);
@@ -163,27 +138,28 @@ class ReducedProblem {
     std::size_t size;
     double centring;
   };
+  /// Of products of columns over all samples, and of the columns over each group.
+  struct Sums {
+    MatrixXd products;
+    std::vector<VectorXd> by_group;
+  };
 
   double weight() const { return 1 / static_cast<double>(count_); }
 
   template <class FillRow>
-  Gram sum_up(Index columns, FillRow fill) {
-    Gram gram(columns);
-    MatrixXd block(columns,
-                   kGramBlock);  // a sample per column, so that a sample is filled in one place
-
-    // Sum up block by block, so that one product serves many samples.
+  Sums sum_up(Index columns, FillRow fill) {
+    GramMatrix gram(static_cast<std::size_t>(columns));
+    Sums sums;
     std::size_t sample = 0;
     for (const Group& group : groups_) {
-      for (std::size_t left = group.size; left > 0;) {
-        const Index taken = std::min<Index>(kGramBlock, static_cast<Index>(left));
-        for (Index k = 0; k < taken; ++k) fill(sample++, block.col(k));
-        gram.add(block.leftCols(taken).transpose());
-        left -= static_cast<std::size_t>(taken);
-      }
-      gram.end_group(group.centring);
+      for (std::size_t k = 0; k < group.size; ++k)
+        fill(sample++, VectorXd::Map(gram.row(), columns));
+      const std::vector<double> by_column = gram.end_group(group.centring);
+      sums.by_group.emplace_back(VectorXd::Map(by_column.data(), columns));
     }
-    return gram;
+    const std::vector<double> products = gram.matrix();
+    sums.products = MatrixXd::Map(products.data(), columns, columns);
+    return sums;
   }
 
   /// Fills in the factors of the consequents; leaves values_ and shares_ of the sample.

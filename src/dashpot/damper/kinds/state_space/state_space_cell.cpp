@@ -7,6 +7,7 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/damper/lag.h"
+#include "dashpot/damper/nets/kernel.h"
 #include "dashpot/damper/nets/tanh.h"
 
 namespace dashpot {
@@ -17,19 +18,6 @@ constexpr double kBend = 3;  // rates change by a factor of e^3 at most
 double* add_scaled(const double* from, std::size_t count, double factor, double* to) noexcept {
   for (std::size_t k = 0; k < count; ++k) to[k] += factor * from[k];
   return to + count;
-}
-
-/// to = sum of weights[l] times row l of `rows`; two rows at a time, which halves the traffic.
-void combine_rows(const double* weights, std::size_t count, const double* rows, std::size_t columns,
-                  double* to) noexcept {
-  std::fill_n(to, columns, 0.0);
-  std::size_t l = 0;
-  for (; l + 1 < count; l += 2) {
-    const double a = weights[l], b = weights[l + 1];
-    const double *first = rows + l * columns, *second = first + columns;
-    for (std::size_t c = 0; c < columns; ++c) to[c] += a * first[c] + b * second[c];
-  }
-  if (l < count) add_scaled(rows + l * columns, columns, weights[l], to);
 }
 
 }  // namespace
@@ -45,9 +33,11 @@ struct StateSpaceCell::Point {
 
 StateSpaceCell::Slopes::Slopes(const StateSpaceCell& cell, std::size_t more_unknowns)
     : columns(cell.parameter_count() + more_unknowns),
-      motions(cell.motions() * columns),
+      step(padded<double>(columns)),
+      motions(cell.motions() * step),
       scratch(motions.size()),
-      currents(cell.currents()) {}
+      currents(cell.currents()),
+      kernel(jacobian_kernel(simd_levels().back())) {}
 
 std::vector<double> StateSpaceCell::parameters() const {
   std::vector<double> all;
@@ -87,9 +77,10 @@ void StateSpaceCell::look(double velocity, const double* currents_now, const dou
   *feature++ = 1;
   feature = std::copy_n(state, paths, feature);
   feature = std::copy_n(held, currents(), feature);
+  double* const tanhs = feature;
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
-    *feature++ =
-        branchless_tanh(std::inner_product(w, w + neuron_stride(), at.inputs.begin(), 0.0));
+    *feature++ = std::inner_product(w, w + neuron_stride(), at.inputs.begin(), 0.0);
+  branchless_tanh(tanhs, hidden());
 
   const double* weights = feedback.data();
   const auto next = [&] {
@@ -98,7 +89,8 @@ void StateSpaceCell::look(double velocity, const double* currents_now, const dou
     return sum;
   };
   for (std::size_t k = 0; k < motions(); ++k) at.speed[k] = velocity + next();
-  for (std::size_t k = 0; k < motions(); ++k) at.bend[k] = branchless_tanh(next() / kBend);
+  for (std::size_t k = 0; k < motions(); ++k) at.bend[k] = next() / kBend;
+  branchless_tanh(at.bend.data(), motions());
 }
 
 void StateSpaceCell::step(double h, Point& at, double* state) const noexcept {
@@ -122,32 +114,41 @@ void StateSpaceCell::step_slopes(const Point& at, const double* current_slopes,
   const std::size_t n = motions(), paths = path_rates.size(), width = features(),
                     stride = neuron_stride();
   const std::size_t neurons_at = 1 + paths + currents();
-  slopes.motions.swap(slopes.scratch);
+  // What each state depends on through one step: features, and by them the states and inputs
+  // before.
+  std::array<double, kMaxMotions> by_bend;
+  std::array<std::array<double, kMaxFeatures>, kMaxMotions> by_phi;
+  std::array<std::array<double, kMaxInputs>, kMaxMotions> by_input;
   for (std::size_t k = 0; k < n; ++k) {
-    const double by_bend = at.by_rate[k] * (1 - at.bend[k] * at.bend[k]);
+    by_bend[k] = at.by_rate[k] * (1 - at.bend[k] * at.bend[k]);
     const double *b = &feedback[k * width], *g = &feedback[(n + k) * width];
-    std::array<double, kMaxFeatures> by_phi;
-    std::array<double, kMaxInputs> by_input{};
-    for (std::size_t f = 0; f < width; ++f) by_phi[f] = at.by_speed[k] * b[f] + by_bend * g[f];
+    double *phi = by_phi[k].data(), *input = by_input[k].data();
+    std::fill_n(input, stride, 0.0);
+    for (std::size_t f = 0; f < width; ++f) phi[f] = at.by_speed[k] * b[f] + by_bend[k] * g[f];
     for (std::size_t j = 0; j < hidden(); ++j) {
       const double t = at.phi[neurons_at + j];
-      by_phi[neurons_at + j] *= 1 - t * t;
-      add_scaled(&neurons[j * stride], stride, by_phi[neurons_at + j], by_input.data());
+      phi[neurons_at + j] *= 1 - t * t;
+      add_scaled(&neurons[j * stride], stride, phi[neurons_at + j], input);
     }
-    for (std::size_t l = 0; l < paths; ++l) by_input[l] += by_phi[1 + l];
-    for (std::size_t m = 0; m < currents(); ++m) by_input[n + 1 + m] += by_phi[1 + paths + m];
-    by_input[k] += at.by_state[k];
+    for (std::size_t l = 0; l < paths; ++l) input[l] += phi[1 + l];
+    for (std::size_t m = 0; m < currents(); ++m) input[n + 1 + m] += phi[1 + paths + m];
+    input[k] += at.by_state[k];
+  }
 
+  // The slopes of the states before, carried on; then what the step's own parameters add.
+  slopes.motions.swap(slopes.scratch);
+  slopes.kernel.carry(n, slopes.step, by_input[0].data(), kMaxInputs, slopes.scratch.data(),
+                      slopes.motions.data());
+  for (std::size_t k = 0; k < n; ++k) {
     double* row = slopes.motion(k);
-    combine_rows(by_input.data(), n, slopes.scratch.data(), slopes.columns, row);
     row[k] += at.by_rate[k];
     for (std::size_t m = 0; m < currents(); ++m)
-      row[n + m] += by_input[n + 1 + m] * current_slopes[m];
+      row[n + m] += by_input[k][n + 1 + m] * current_slopes[m];
     row += size();
     for (std::size_t j = 0; j < hidden(); ++j)
-      row = add_scaled(at.inputs.data(), stride, by_phi[neurons_at + j], row);
+      row = add_scaled(at.inputs.data(), stride, by_phi[k][neurons_at + j], row);
     add_scaled(at.phi.data(), width, at.by_speed[k], row + k * width);
-    add_scaled(at.phi.data(), width, by_bend, row + (n + k) * width);
+    add_scaled(at.phi.data(), width, by_bend[k], row + (n + k) * width);
   }
 }
 

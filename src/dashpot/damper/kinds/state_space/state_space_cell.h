@@ -2,9 +2,12 @@
 #include <span>
 #include <vector>
 
+#include "dashpot/damper/nets/aligned.h"
 #include "dashpot/damper_model.h"
 
 namespace dashpot {
+
+struct JacobianKernel;
 
 /// States that velocity and current drive and that act back on themselves through a small
 /// perceptron:
@@ -49,11 +52,12 @@ struct StateSpaceCell {
   /// Derivatives of the states by unknowns, the parameters first, brought along with the states.
   struct Slopes {
     Slopes(const StateSpaceCell& cell, std::size_t more_unknowns = 0);
-    double* motion(std::size_t k) noexcept { return motions.data() + k * columns; }
+    double* motion(std::size_t k) noexcept { return motions.data() + k * step; }
 
-    std::size_t columns;                   ///< unknowns
-    std::vector<double> motions, scratch;  ///< a row per motion state
-    std::vector<double> currents;          ///< each by the logarithm of its own rate
+    std::size_t columns, step;               ///< unknowns; from row to row
+    AlignedVector<double> motions, scratch;  ///< a row per motion state
+    std::vector<double> currents;            ///< each by the logarithm of its own rate
+    const JacobianKernel& kernel;
   };
 
   /// The states: x, y, then u, all standardised. At rest they have settled under the input's

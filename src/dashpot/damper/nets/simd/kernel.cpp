@@ -1,5 +1,6 @@
 // Compiled once per instruction set, into a table of functions of its own. DASHPOT_KERNEL names the
 // function that hands the table out; kernel_dispatch.cpp chooses among them.
+#include "dashpot/damper/nets/simd/gram.h"
 #include "dashpot/damper/nets/simd/neuron_lanes.h"
 #include "dashpot/damper/nets/simd/respond.h"
 #include "dashpot/damper/nets/simd/sample_lanes.h"
@@ -20,7 +21,8 @@ static_assert(kRoomRows >= kMaxWidth && kMaxWidth % kLanes<float> == 0,
 template <class Real>
 constexpr Kernel<Real> kTable{&forward<Real>, &backward<Real>, &transpose<Real>,
                               &update<Real>,  &respond<Real>,  &evaluate<Real>};
-constexpr KernelTables kTables{kTable<float>, kTable<double>, {&add_products, &add_errors}};
+constexpr KernelTables kTables{
+    kTable<float>, kTable<double>, {&add_products, &add_errors, &add_gram, &carry}};
 
 }  // namespace
 
