@@ -116,7 +116,22 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
 
   Value data = evaluation_json(file, evaluation, outside, changed);
   data.add("records_seen", seen_records(file.provenance, dataset));
-  const Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
+  Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
+
+  // What is to be said beside these errors stands on the page as well.
+  RankedModel& model = ranking.models.front();
+  std::vector<std::string> warnings;
+  for (const Extrapolation& e : outside) warnings.push_back(describe(e));
+  if (const std::string active = activity(model.dissipation, dataset.drive_unit); !active.empty())
+    warnings.push_back("beyond these recordings: " + active);
+  if (const std::size_t seen = *ranking.seen; seen > 0)
+    warnings.push_back(
+        fmt::format("the fit of the model has seen {} of {}: these errors are no judgement", seen,
+                    counted(dataset.records.size(), "record")));
+  for (const std::string& what : outside_family(evaluation))
+    warnings.push_back(what + ": it extrapolates there");
+  model.fit.warnings = warnings;
+
   Document document = evaluation_document(report_input(dataset, ranking, settings.units, console));
   document.data = std::move(data);
   const bool is_infinite = evaluation.diverged == 0 && !std::isfinite(evaluation.pooled.rmse);
@@ -125,16 +140,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
         "The error is not finite: nothing below can be used. Are the model and the "
         "recordings of the same damper, in the same units?";
   print_document(document, console);
-  for (const Extrapolation& e : outside) console.warn(describe(e));
-  if (const std::string active = activity(ranking.models.front().dissipation, dataset.drive_unit);
-      !active.empty())
-    console.warn("beyond these recordings: " + active);
-  if (const std::size_t seen = *ranking.seen; seen > 0)
-    console.warn(
-        fmt::format("the fit of the model has seen {} of {}: these errors are no judgement", seen,
-                    counted(dataset.records.size(), "record")));
-  for (const std::string& what : outside_family(evaluation))
-    console.warn(what + ": it extrapolates there");
+  for (const std::string& warning : warnings) console.warn(warning);
   if (console.json) console.print_json(document_json(document));
   if (!settings.report.empty()) {
     write_page(document, settings.report);

@@ -53,7 +53,10 @@ double number_of(const httplib::Request& request, const char* name, double fallb
 
 void draw(const SampleView& view, const httplib::Request& request, httplib::Response& response) {
   constexpr double kWidest = 4000;
-  const auto record = static_cast<std::size_t>(std::max(0.0, number_of(request, "record", 0)));
+  const auto record =
+      request.has_param("name")
+          ? view.place_of(request.get_param_value("name"))
+          : static_cast<std::size_t>(std::max(0.0, number_of(request, "record", 0)));
   const std::string x_name = request.get_param_value("x"), y_name = request.get_param_value("y");
   const auto width =
       static_cast<std::size_t>(std::clamp(number_of(request, "width", 800), 10.0, kWidest));

@@ -39,7 +39,8 @@ bool is_open(const Asked& asked) {
 
 }  // namespace
 
-Guard::Guard(int port) : port_(port), session_(random_text()) {}
+Guard::Guard(int port)
+    : port_(port), session_(random_text()), key_(random_text()), address_key_(random_text()) {}
 
 std::string Guard::cookie_name() const { return "dashpot_studio_" + std::to_string(port_); }
 
@@ -48,14 +49,15 @@ std::string Guard::make_token() {
   return token_ = random_text();
 }
 
-std::optional<std::string> Guard::exchange(std::string_view token) {
+std::optional<Session> Guard::exchange(std::string_view token) {
   const std::lock_guard lock(mutex_);
   if (!same_text(token, token_)) return std::nullopt;
   token_.clear();
-  return cookie_name() + "=" + session_ + "; HttpOnly; SameSite=Strict; Path=/";
+  return Session{cookie_name() + "=" + session_ + "; HttpOnly; SameSite=Strict; Path=/", key_,
+                 address_key_};
 }
 
-bool Guard::has_session(std::string_view cookie_header) const {
+bool Guard::has_cookie(std::string_view cookie_header) const {
   const std::string name = cookie_name() + "=";
   for (std::size_t at = 0; at <= cookie_header.size();) {
     const std::size_t end = std::min(cookie_header.find(';', at), cookie_header.size());
@@ -64,6 +66,15 @@ bool Guard::has_session(std::string_view cookie_header) const {
     at = end + 1;
   }
   return false;
+}
+
+bool Guard::has_session(const Asked& asked) const {
+  // Reports, modules and downloads are opened by the browser, which sends no header of the page's.
+  const bool is_opened =
+      asked.method == "GET" && (asked.path.starts_with("/report/") || asked.path == "/api/module" ||
+                                asked.path == "/api/exported");
+  return has_cookie(asked.cookie) &&
+         (same_text(asked.key, key_) || (is_opened && same_text(asked.address_key, address_key_)));
 }
 
 std::optional<Refusal> Guard::refuse(const Asked& asked) const {
@@ -90,8 +101,8 @@ std::optional<Refusal> Guard::refuse(const Asked& asked) const {
       return Refusal{415, "a body is application/json or application/octet-stream"};
   }
 
-  // Whoever asks for data or work holds the cookie.
-  if (!is_open(asked) && !has_session(asked.cookie))
+  // Whoever asks for data or work holds the cookie and the key.
+  if (!is_open(asked) && !has_session(asked))
     return Refusal{401, "open the address that 'dashpot studio' printed"};
   return std::nullopt;
 }

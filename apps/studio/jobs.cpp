@@ -113,7 +113,7 @@ void Jobs::save(const Job& job) const {
 
 void Jobs::start(const JobKind& kind, const std::string& name, const Value& asked) {
   if (!is_plain_name(name))
-    throw Error("'" + name + "'", "is no name for a " + std::string(kind.name));
+    throw Error("'" + name + "'", "is no name for a " + std::string(kind.name), kPlainName);
 
   const std::lock_guard lock(mutex_);
   if (find(kind, name) || fs::exists(project_.folder() / kind.folder / name))

@@ -100,7 +100,7 @@ fs::path Project::inside(const std::string& relative) const {
   for (const fs::path& part : fs::path(relative)) {
     constexpr std::size_t kDeepest = 8;
     if (!is_plain_name(part.string()) || ++parts > kDeepest)
-      throw Error("'" + relative + "'", "is no name in this project");
+      throw Error("'" + relative + "'", "is no name in this project", kPlainName);
     path /= part;
     if (fs::is_symlink(path)) throw Error("'" + relative + "'", "is a link");
   }

@@ -83,6 +83,9 @@ class Project {
 /// A name of a fit or a part of a file's name: letters, digits and what people write between them;
 /// not hidden, no way out.
 bool is_plain_name(std::string_view name);
+/// What such a name is, to be said where one is none.
+inline constexpr const char* kPlainName =
+    "at most 120 bytes without '/', '\\' and control characters, the first neither '.' nor '-'";
 
 /// What a child said that went wrong: its last error without the label, or how it ended.
 std::string error_of(const ChildEnd& end);

@@ -37,7 +37,9 @@ SampleView::SampleView(const std::filesystem::path& folder) {
   const Value* records = value.find("records");
   if (!records) throw Error(index, "lists no records");
   for (const Value& one : records->items()) {
-    Record record{static_cast<std::size_t>(one.find("samples")->as_number()), {}};
+    Record record{one.find("name")->as_string(),
+                  static_cast<std::size_t>(one.find("samples")->as_number()),
+                  {}};
     for (const Value& column : one.find("columns")->items())
       record.columns.push_back({column.find("name")->as_string(), column.find("unit")->as_string(),
                                 static_cast<std::size_t>(column.find("at")->as_number())});
@@ -63,6 +65,14 @@ SampleView::SampleView(const std::filesystem::path& folder) {
 
 SampleView::~SampleView() {
   if (samples_) munmap(const_cast<double*>(samples_), count_ * sizeof(double));
+}
+
+std::size_t SampleView::place_of(const std::string& record) const {
+  const auto at = std::ranges::find(records_, record, &Record::name);
+  if (at == records_.end())
+    throw Error("'" + record + "'", "is no record of this folder, or none any more",
+                "reload the page to see those that there are");
+  return static_cast<std::size_t>(at - records_.begin());
 }
 
 const SampleView::Column* SampleView::find(std::size_t record, const std::string& name) const {

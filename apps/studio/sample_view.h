@@ -21,6 +21,9 @@ class SampleView {
   SampleView& operator=(const SampleView&) = delete;
 
   std::size_t records() const { return records_.size(); }
+  /// The place of a record. Throws Error where there is none of this name: files may have changed
+  /// since a page learnt of them.
+  std::size_t place_of(const std::string& record) const;
   /// One column of a record; empty when the record has none of this name.
   std::span<const double> column(std::size_t record, const std::string& name) const;
   std::string unit(std::size_t record, const std::string& name) const;
@@ -31,6 +34,7 @@ class SampleView {
     std::size_t at;
   };
   struct Record {
+    std::string name;
     std::size_t samples;
     std::vector<Column> columns;
   };

@@ -57,7 +57,9 @@ class Studio {
                         request.get_header_value("Origin"),
                         request.get_header_value("Sec-Fetch-Site"),
                         request.get_header_value("Cookie"),
-                        request.get_header_value("Content-Type")};
+                        request.get_header_value("Content-Type"),
+                        request.get_header_value("X-Dashpot-Key"),
+                        request.get_param_value("session")};
       auto refusal = guard.refuse(asked);
       // More than one Host or Origin is nobody's honest request.
       if (request.get_header_value_count("Host") > 1 ||
@@ -125,11 +127,12 @@ class Studio {
     server.Post("/api/session", [&guard](const Request& request, Response& response) {
       const Value body = body_of(request);
       ObjectReader reader(body, "a session");
-      const auto cookie = guard.exchange(reader.string("token"));
-      if (!cookie)
+      const auto session = guard.exchange(reader.string("token"));
+      if (!session)
         return refuse(response, 401, "this address was used already; the terminal has another");
-      response.set_header("Set-Cookie", *cookie);
-      answer(response, Value::object({{"done", true}}));
+      response.set_header("Set-Cookie", session->cookie);
+      answer(response,
+             Value::object({{"key", session->key}, {"address_key", session->address_key}}));
     });
     server.Post("/api/token", [&guard](const Request&, Response& response) {
       answer(response, Value::object({{"token", guard.make_token()}}));
@@ -155,6 +158,7 @@ class Studio {
       const std::string file = reader.string("file"), set = reader.string("set");
       reader.finish();
       answer(response, project_.correct(file, set));
+      ++corrections_;
       jobs_.changed();
     });
 
@@ -211,7 +215,8 @@ class Studio {
     server.Get("/api/changes", [this](const Request& request, Response& response) {
       const std::size_t version =
           jobs_.wait(static_cast<std::size_t>(std::max(0.0, number_of(request, "since", 0))));
-      answer(response, Value::object({{"version", version}}));
+      answer(response, Value::object({{"version", version},
+                                      {"corrections", static_cast<double>(corrections_)}}));
     });
 
     // What there is, and what can be fitted at which cost.
@@ -253,7 +258,7 @@ class Studio {
   }
 
   static constexpr int kMostUploads = 4;
-  std::atomic<int> uploads_ = 0;
+  std::atomic<int> uploads_ = 0, corrections_ = 0;
   Project project_;
   Jobs jobs_;
   WorkRoutes work_routes_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "dashpot/base/text.h"
 #include "dashpot/controller.h"
@@ -19,6 +20,7 @@ namespace dashpot::studio {
 namespace {
 
 constexpr double kLongestDrive = 60;  // s
+constexpr double kNotStated = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLongestWords = 400;
 
 /// Throws Error where `text` is no "name=value,name=value": numbers, units and words, no path.
@@ -131,7 +133,7 @@ std::vector<std::string> vehicle_words(const Project& project, ObjectReader& ask
   const std::string road = asked.string("road");
   require_words(road, "road", known_roads());
   words.insert(words.end(), {"--road", road});
-  if (const double duration = asked.number("duration", 0); duration != 0)
+  if (const double duration = asked.number("duration", kNotStated); !std::isnan(duration))
     words.insert(words.end(),
                  {"--duration", number_word(duration, 0.1, kLongestDrive, "duration")});
   return words;

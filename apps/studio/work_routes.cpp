@@ -52,6 +52,9 @@ Value plants_json() {
     if (set.plant.tyres.empty()) continue;  // a building has no road
     Value choice = choice_json(name, set.plant.title, {});
     choice.add("kind", set.kind);
+    Value values = Value::object();
+    for (const auto& [value_name, value] : set.stated) values.add(value_name, value);
+    choice.add("values", std::move(values));
     list.push_back(std::move(choice));
   }
   return list;

@@ -110,7 +110,8 @@ struct PlantSet {
   std::string reason;     ///< how it was verified, or why it is not
   Plant plant;
   std::optional<DampingRange> damping;  ///< per strut
-  std::string kind = {};  ///< of plant, whose parameters it states; empty: matrices of its own
+  std::string kind = {};    ///< of plant, whose parameters it states; empty: matrices of its own
+  NamedValues stated = {};  ///< those parameters, in SI
 };
 
 /// Names of the sets that come with Dashpot, in alphabetical order.

@@ -192,7 +192,14 @@ TEST_CASE("evaluate: writes a report page") {
                   small_campaign().string() + " --report " + page);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
-  CHECK(fs::exists(page));
+
+  // The recordings are those of the fit: the page says so, as the terminal does.
+  const std::string text = read_file(page);
+  CHECK(contains(result.output, "these errors are no judgement"));
+  CHECK(contains(text, "these errors are no judgement"));
+  CHECK(contains(text, "RMS error, free run, records of its fit"));
+  CHECK(!contains(text, "free run, left-out records"));
+  CHECK(!contains(text, "Fitted on all training records"));
 }
 
 TEST_CASE("evaluate: a model file with an unknown key, of another drive, or none at all") {

@@ -26,6 +26,18 @@ TEST_CASE("ride: two controllers against passive, with a page") {
   CHECK(contains(data.find("remarks")->items().back().as_string(), "are an example"));
 }
 
+TEST_CASE("ride: says where the same dampers are as good without control") {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_dashpot(
+      "ride --damper spencer1997 --controllers add --frequencies 4,8 --duration 6 --settling 4 "
+      "--chirp 5 --output " +
+          (folder.path() / "ride").string(),
+      "env COLUMNS=300");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.output, "add is not worth its control here: the same dampers held at "));
+}
+
 TEST_CASE("ride: wrong command lines" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const struct {

@@ -98,7 +98,9 @@ async function theme(page) {
   await page.waitForSelector("html[data-ready]");
   assert.equal(await paper(), "rgb(20, 23, 27)", "the choice is remembered");
   await page.emulateMedia({media: "print"});
-  assert.ok(!await page.locator(".choices").isVisible(), "controls are not printed");
+  assert.ok(!await page.locator(".choices select").first().isVisible(), "controls are not printed");
+  const record = await page.locator("#record option:checked").textContent();
+  assert.equal(await page.locator("#closer .printed").last().innerText(), record, "what they show is");
   await page.emulateMedia({media: "screen"});
   await page.getByRole("button", {name: "Light"}).click();
   await page.evaluate(() => localStorage.clear());

@@ -48,6 +48,17 @@ TEST_CASE("a difference is clear where it is more than twice the scatter of both
   CHECK(!clear[0].yield.is_clear());
 }
 
+TEST_CASE("figures from speeds and from a loop are not told apart by their scatter") {
+  Characterisation first = sheet(1000, 1), second = sheet(1050, 1);
+  first.levels[0].basis = "speeds";
+  second.levels[0].basis = "loop";
+  const auto levels = differences(first, second);
+  CHECK(levels[0].friction.value() == 5);
+  CHECK(!levels[0].friction.is_clear());
+  CHECK(levels[0].speeds[0].damping_force.is_clear() == true);
+  CHECK(levels[1].friction.is_clear() == true);
+}
+
 TEST_CASE("levels and speeds that only one has are left out") {
   const auto levels = differences(sheet(1000, 1), sheet(1000, 1, 2));
   REQUIRE(levels.size() == 1);

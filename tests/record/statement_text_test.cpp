@@ -73,6 +73,21 @@ TEST_CASE("what was understood, written down, reads the same: units, signs, leve
   CHECK(contains(text, "level: 0.5"));
 }
 
+TEST_CASE("a level that is corrected leaves the frequency in the record's name alone") {
+  const TemporaryFolder folder;
+  folder.write("data/recordings/10 mm 2 Hz 2A.csv",
+               workshop_rows("Time [s],Pos [mm],Load [N]\n", 1));
+  const fs::path data = folder.path() / "data";
+  std::string text = statement_text(load_dataset({data}), data, folder.path());
+  const std::size_t at = text.find("level: 2");
+  REQUIRE(at != std::string::npos);
+  const Dataset corrected =
+      load_dataset({folder.write("stated.yaml", text.replace(at, 8, "level: 0.5"))});
+  REQUIRE(corrected.records.size() == 1);
+  CHECK(corrected.records[0].drive_level == 0.5);
+  CHECK(corrected.records[0].name == "recordings/10 mm 2 Hz 2A");
+}
+
 TEST_CASE("files with several tests and gaps are stated with all their levels") {
   const TemporaryFolder folder;
   std::string rows = workshop_rows("t [s],x [mm],F [N]\n", 1);

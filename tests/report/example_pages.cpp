@@ -23,7 +23,8 @@ dashpot::Document sliders_document(bool records = false) {
   std::vector<dashpot::SharedSamples> samples;
   if (records) {
     constexpr double kAmplitude = 0.01, kRate = 12.566370614359172;  // m, rad/s
-    dashpot::SharedSamples displacement, velocity, force;
+    dashpot::SharedSamples displacement{.values = {}, .unit = "m"},
+        velocity{.values = {}, .unit = "m/s"}, force{.values = {}, .unit = "N"};
     for (int k = 0; k <= 200; ++k) {
       displacement.values.push_back(kAmplitude * std::sin(kRate * k / 400));
       velocity.values.push_back(kAmplitude * kRate * std::cos(kRate * k / 400));

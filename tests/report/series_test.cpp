@@ -32,6 +32,13 @@ TEST_CASE("thinning keeps the ends and every extreme, in order") {
   CHECK(thinned_indices({}, 10).empty());
 }
 
+TEST_CASE("thinning keeps the course of a curve beside forty others") {
+  const std::vector<std::vector<double>> waves(42, std::vector<double>(10000));
+  const auto chosen = thinned_indices({waves.begin(), waves.end()}, 600);
+  CHECK(chosen.size() <= 602);
+  for (std::size_t k = 1; k < chosen.size(); ++k) CHECK(chosen[k] - chosen[k - 1] <= 34);
+}
+
 TEST_CASE("base64 as RFC 4648, section 10 has it") {
   CHECK(base64("") == "");
   CHECK(base64("f") == "Zg==");

@@ -34,7 +34,9 @@ assert.throws(() => execFileSync(program, ["studio", "--no-open", folder], {stdi
   (error) => error.status === 1 && /another studio/.test(error.stderr));
 
 const own = await open(studio);
-const {Cookie, ...stranger} = own;
+const {Cookie, "X-Dashpot-Key": key, ...stranger} = own;
+const {token} = JSON.parse((await send(studio.port, {method: "POST", path: "/api/token", headers: own, body: "{}"})).text);
+const {address_key} = JSON.parse((await send(studio.port, {method: "POST", path: "/api/session", headers: stranger, body: JSON.stringify({token})})).text);
 const host = own.Host, json = (value) => JSON.stringify(value);
 const upload = {...own, "Content-Type": "application/octet-stream"};
 const drive = (more) => json({plant: "savaresi_spelta", road: "step", duration: 1, ...more});
@@ -59,9 +61,15 @@ const cases = [
   // Who holds no cookie
   ["a second user of the machine", {path: "/api/recordings", headers: stranger}, 401],
   ["a report without the cookie", {path: "/report/own", headers: stranger}, 401],
-  ["a guessed cookie", {path: "/api/fits", headers: {...stranger, Cookie: `dashpot_studio_${port}=${"0".repeat(64)}`}}, 401],
-  ["an empty cookie", {path: "/api/fits", headers: {...stranger, Cookie: `dashpot_studio_${port}=`}}, 401],
-  ["the cookie of another port", {path: "/api/fits", headers: {...stranger, Cookie: Cookie.replace(`_${port}=`, `_${port + 1}=`)}}, 401],
+  ["a guessed cookie", {path: "/api/fits", headers: {...own, Cookie: `dashpot_studio_${port}=${"0".repeat(64)}`}}, 401],
+  ["the cookie alone, as another port of the machine gets it", {path: "/api/fits", headers: {...stranger, Cookie}}, 401],
+  ["a change by the cookie alone", {method: "POST", path: "/api/fits", headers: {...stranger, Cookie}, body: "{}"}, 401],
+  ["a report by the cookie alone", {path: "/report/own", headers: {...stranger, Cookie}}, 401],
+  ["data by the key of addresses", {path: `/api/fits?session=${address_key}`, headers: {...stranger, Cookie}}, 401],
+  ["a report as the page opens it", {path: `/report/own?session=${address_key}`, headers: {Host: host, Cookie}}, 200],
+  ["the keys without the cookie", {path: "/api/fits", headers: {...stranger, "X-Dashpot-Key": key}}, 401],
+  ["an empty cookie", {path: "/api/fits", headers: {...own, Cookie: `dashpot_studio_${port}=`}}, 401],
+  ["the cookie of another port", {path: "/api/fits", headers: {...own, Cookie: Cookie.replace(`_${port}=`, `_${port + 1}=`)}}, 401],
   ["a second browser with a token that was used", {method: "POST", path: "/api/session", headers: stranger, body: json({token: studio.token})}, 401],
   ["an empty token", {method: "POST", path: "/api/session", headers: stranger, body: json({token: ""})}, 401],
   // Forms of others
@@ -112,6 +120,8 @@ const cases = [
   ["a drive for ever", {method: "POST", path: "/api/drive", headers: own, body: drive({duration: 1e9})}, 400],
   ["a road of more waves than there may be", {method: "POST", path: "/api/drive", headers: own, body: drive({road: "iso8608,waves=1e15"})}, 400],
   ["a drive that does not last", {method: "POST", path: "/api/drive", headers: own, body: json({plant: "savaresi_spelta", road: "step", duration: "1"})}, 400],
+  ["a drive of no time", {method: "POST", path: "/api/drive", headers: own, body: drive({duration: 0})}, 400],
+  ["a current that is no number", {method: "POST", path: "/api/drive", headers: own, body: drive({current: "1 A"})}, 400],
   ["a drive with more than it has", {method: "POST", path: "/api/drive", headers: own, body: drive({output: "/tmp/x"})}, 400],
   ["a drive of 1 MB", {method: "POST", path: "/api/drive", headers: own, body: drive({values: "x".repeat(1 << 20)})}, 400],
   ["traces above the project", {path: "/api/driven?key=..%2F..%2F..&x=time&y=force", headers: own}, 400],
@@ -165,6 +175,10 @@ try {
     assert.ok(!answer.text.includes("root:") && !answer.text.includes("hush"), `${what} gives a file of others away`);
     assert.equal(answer.headers["access-control-allow-origin"], undefined, what);
   }
+
+  // A name that is none is told what one is.
+  const unnamed = await send(port, {method: "POST", path: "/api/fits", headers: own, body: json({action: "start", name: "a/b", models: ["bingham"]})});
+  assert.match(unnamed.text, /'a\/b': is no name for a fit; at most 120 bytes without '\/'/);
 
   // None of these left anything behind.
   for (const results of ["rides", "exports"]) assert.ok(!existsSync(join(folder, results)) || readdirSync(join(folder, results)).every((name) => name === ".no-recordings" || name === "own, plain"), results);

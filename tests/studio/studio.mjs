@@ -38,10 +38,10 @@ export function send(port, {method = "GET", path = "/", headers = {}, body} = {}
   });
 }
 
-// The headers of the studio's own page, which holds the cookie.
+// The headers of the studio's own page, which holds the cookie and the key.
 export async function open(studio) {
   const own = {Host: `127.0.0.1:${studio.port}`, Origin: `http://127.0.0.1:${studio.port}`, "Content-Type": "application/json"};
   const answer = await send(studio.port, {method: "POST", path: "/api/session", headers: own, body: JSON.stringify({token: studio.token})});
   if (answer.status !== 200) throw new Error(`no session: ${answer.text}`);
-  return {...own, Cookie: answer.headers["set-cookie"][0].split(";")[0]};
+  return {...own, Cookie: answer.headers["set-cookie"][0].split(";")[0], "X-Dashpot-Key": JSON.parse(answer.text).key};
 }

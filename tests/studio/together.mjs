@@ -34,6 +34,12 @@ try {
   assert.deepEqual(one.records.map((record) => record.drive_level).sort(), files.map((_, k) => k / 4));
   const told = JSON.parse(execFileSync(program, ["inspect", folder, "--json", "--quiet"], {encoding: "utf8"}));
   assert.deepEqual(told.records, one.records, "the command line reads the same");
+  assert.equal((await get(second, "/api/changes?since=0")).corrections, files.length, "each browser hears of corrections");
+
+  // A browser that knows the records in another order draws the one that it names.
+  const greatest = async (name) => Math.max(...(await get(second, `/api/view?${new URLSearchParams({name, x: "time", y: "force"})}`)).y);
+  for (const [k, name] of files.entries()) assert.ok(Math.abs(await greatest(name.replace(".csv", "")) - 299.8 - k) < 0.3, name);
+  assert.match((await get(second, "/api/view?name=gone&x=time&y=force")).error, /'gone': is no record of this folder/);
 
   // Two contents under one name: one is taken, whole, and the other refused.
   const contents = [wave(100), wave(200)];

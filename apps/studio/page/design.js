@@ -6,6 +6,7 @@ import {request_of, request_text, rows_of} from "/design_request.js";
 import {keep, useKept} from "/kept.js";
 import {drive_model} from "/machine.js";
 import {Scatter} from "/scatter.js";
+import {typed} from "/setting.js";
 import {useResult, useWork, WorkHead} from "/work.js";
 
 const spoken = (name) => name.replaceAll("_", " ");
@@ -90,9 +91,9 @@ export function Design({fits, theme, go}) {
   const text = request_text(request_of(rows));
   const start = async (event) => {
     event.preventDefault();
-    if (await act("start", how.name || free_name(), {request: text, points: +how.points, generations: +how.generations, seed: +how.seed})) set_how({...how, name: ""});
+    if (await act("start", how.name || free_name(), {request: text, points: typed(how.points), generations: typed(how.generations), seed: typed(how.seed)})) set_how({...how, name: ""});
   };
-  const box = (key, label) => html`<label class="field">${label}<input size="6" inputmode="numeric" value=${how[key]} onInput=${(event) => set_how({...how, [key]: event.target.value})} /></label>`;
+  const box = (key, label) => html`<label class="field">${label}<input size="6" inputmode="numeric" required value=${how[key]} onInput=${(event) => set_how({...how, [key]: event.target.value})} /></label>`;
   return html`<main class="broad">
     <form class="side" onSubmit=${start}><h2>New design</h2>
       <label class="field">Start from<select value="" onChange=${(event) => event.target.value !== "" && set_rows(rows_of(known.requests[+event.target.value].request))}>

@@ -1,6 +1,6 @@
 // A model of the project in forms that other programs take.
 import {html, useEffect, useState} from "/htm.mjs";
-import {ask, tell} from "/ask.js";
+import {ask, opened, tell} from "/ask.js";
 import {Command} from "/command.js";
 import {useKept} from "/kept.js";
 
@@ -31,7 +31,7 @@ export function Export({version, fits}) {
     set_error(got.error ?? "");
     await reload();
   };
-  const link = (folder, file) => `/api/exported?${new URLSearchParams({folder, ...(file ? {file} : {})})}`;
+  const link = (folder, file) => opened(`/api/exported?${new URLSearchParams({folder, ...(file ? {file} : {})})}`);
   const field = (key) => (event) => set_more({...more, [key]: event.target.value});
   return html`<main>
     <form class="side" onSubmit=${start}>

@@ -1,6 +1,6 @@
 // Fits: models to choose, work that goes on in the background, leaderboards.
 import {html, useEffect, useState} from "/htm.mjs";
-import {ask, tell} from "/ask.js";
+import {ask, opened, tell} from "/ask.js";
 import {Command} from "/command.js";
 import {Plot} from "/plot.js";
 
@@ -57,7 +57,7 @@ function Fit({fit, theme, act}) {
     <header><h3>${fit.name}</h3><span class="state" role="status">${kStates[fit.state] ?? fit.state}${fit.state === "running" && fit.stage ? `: ${fit.stage}` : ""}</span>
       ${fit.state === "running" && html`<button class="plain" onClick=${() => act("stop", fit.name)}>Stop</button>`}
       ${(fit.state === "stopped" || fit.state === "failed") && fit.arguments.length > 0 && html`<button class="plain" onClick=${() => act("go_on", fit.name)}>Go on</button>`}
-      ${fit.has_report && html`<a href="/report/${encodeURIComponent(fit.name)}" target="_blank" rel="noopener">Report</a>`}
+      ${fit.has_report && html`<a href=${opened(`/report/${encodeURIComponent(fit.name)}`)} target="_blank" rel="noopener">Report</a>`}
     </header>
     ${fit.state === "running" && html`<progress max="1" value=${fit.fraction} aria-label="Progress of ${fit.name}"></progress>`}
     ${fit.message && html`<p class="error">${fit.message}</p>`}

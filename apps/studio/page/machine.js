@@ -6,19 +6,19 @@ import {ModelOptions} from "/export.js";
 import {keep, useKept} from "/kept.js";
 import {Plot} from "/plot.js";
 import {Scatter} from "/scatter.js";
-import {Settings, Setting, setting_words, with_settings} from "/setting.js";
+import {Settings, Setting, setting_words, typed, with_settings} from "/setting.js";
 import {RideList} from "/rides.js";
 
 const kNone = "none";
-const kDrive = {name: "current", unit: "A or V", default: 0.5, lower: 0, upper: 20, meaning: "of a damper that no controller drives"};
-const kDuration = {name: "duration", unit: "s", default: 10, lower: 0.1, upper: 60, meaning: "of the drive"};
+const kDrive = {name: "current", unit: "A or V", default: 0, lower: 0, upper: 20, span: 5, meaning: "of a damper that no controller drives"};
+const kDuration = {name: "duration", unit: "s", default: 10, lower: 0.1, upper: 60, empty: "the road's", meaning: "of the drive; empty: as long as is usual on this road"};
 const kMostDriven = 400;
 
 // The whole of what one of the two dampers is driven with.
 function drive_of(common, one) {
-  const of_controller = one.controller ? {controller: with_settings(one.controller, one.values), in_car: common.in_car} : {current: +(one.current || 0)};
+  const of_controller = one.controller ? {controller: with_settings(one.controller, one.values), in_car: common.in_car} : {current: typed(one.current)};
   return {plant: common.plant, values: setting_words(common.values), damper: one.damper, road: with_settings(common.road, common.road_values),
-    ...(+common.duration > 0 ? {duration: +common.duration} : {}), ...of_controller};
+    duration: typed(common.duration), ...of_controller};
 }
 
 // Driven again whenever something was moved: one at a time, and then at once as it is meanwhile.
@@ -140,7 +140,7 @@ function Drive({lists, models, theme, fits}) {
     <div class="side"><h2>Vehicle</h2>
       <label class="field">Plant<select value=${common.plant} onChange=${(event) => set({plant: event.target.value, values: {}})}>
         ${lists.plants.map((p) => html`<option key=${p.name} value=${p.name}>${p.title}</option>`)}</select></label>
-      ${kind?.parameters.length > 0 && html`<details><summary>Values of the plant</summary><${Settings} name="Plant" rows=${kind.parameters.map((row) => plant?.kind ? {...row, meaning: `${row.meaning}; empty: as the set has it`} : row)} values=${common.values} on_change=${(values) => set({values})} /></details>`}
+      ${kind?.parameters.length > 0 && html`<details><summary>Values of the plant</summary><${Settings} name="Plant" rows=${kind.parameters.map((row) => ({...row, default: plant?.values[row.name] ?? row.default}))} values=${common.values} on_change=${(values) => set({values})} /></details>`}
       <label class="field">Road<select value=${common.road} onChange=${(event) => set({road: event.target.value, road_values: {}, duration: event.target.value === "step" ? "" : common.duration})}>
         ${lists.roads.map((r) => html`<option key=${r.name} value=${r.name}>${r.title}</option>`)}</select></label>
       <details><summary>Settings of the road</summary><${Settings} name="Road" rows=${road?.parameters} values=${common.road_values} on_change=${(road_values) => set({road_values})} /></details>
@@ -161,6 +161,7 @@ function Drive({lists, models, theme, fits}) {
             window=${window} on_zoom=${zoom} theme=${theme} height=${200} keep=${name} />`)}
         </div>
         ${shown.flatMap(([got, name]) => got.run.warnings.map((warning) => html`<p class="error">${name}: ${warning}</p>`))}
+        ${[...new Set(shown.flatMap(([got]) => got.remarks.filter((remark) => !got.run.warnings.some((warning) => remark.endsWith(warning)))))].map((remark) => html`<p class="note">${remark}</p>`)}
         <${Measures} columns=${columns} />
         ${shown.map(([got]) => html`<${Command} words=${got.arguments} />`)}`}
       <${RideList} fits=${fits} theme=${theme} asked=${drive_of(common, {...a, controller: ""})} own=${[a, b].filter((one) => one.damper !== kNone && one.controller).map((one) => with_settings(one.controller, one.values))} />

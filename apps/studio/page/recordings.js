@@ -63,7 +63,7 @@ function useView(path, record, x, y, window, width, version) {
   useEffect(() => {
     if (record === undefined) return;
     let is_old = false;
-    ask(path, {record, x, y, from: window?.[0], to: window?.[1], width}).then((got) => is_old || set_view(got)).catch(() => {});
+    ask(path, {name: record, x, y, from: window?.[0], to: window?.[1], width}).then((got) => is_old || set_view(got)).catch(() => is_old || set_view({x: [], y: []}));
     return () => { is_old = true; };
   }, [path, record, x, y, window?.[0], window?.[1], width, version]);
   return view;
@@ -146,9 +146,11 @@ function Correction({record, known, on_done}) {
 }
 
 export function Recordings({known, version, theme, on_changed}) {
-  const [chosen, set_chosen] = useState(0), [window, set_window] = useState();
+  const [chosen, set_chosen] = useState(), [window, set_window] = useState();
   const records = known?.records ?? [];
-  const at = Math.min(chosen, records.length - 1), record = records[at];
+  // A correction may give a record another place in the list, or another name.
+  const place_of = (key) => records.findIndex((r) => r[key] === chosen?.[key]), named = place_of("name");
+  const at = Math.max(0, named < 0 ? place_of("source") : named), record = records[at];
   useEffect(() => set_window(undefined), [record?.name, version]);
   const zoom = (from, to) => set_window(from === undefined ? undefined : [from, to]);
   const doubts = new Map((known?.suspects ?? []).map((s) => [s.record, s.why]));
@@ -161,7 +163,7 @@ export function Recordings({known, version, theme, on_changed}) {
       <${DropZone} formats=${known?.formats} on_done=${on_changed} />
       ${known?.error && records.length === 0 && html`<p class="note">${known.error}</p>`}
       <ul class="list" aria-label="Records">${records.map((r, k) => html`<li key=${r.name} class=${doubts.has(r.name) ? "doubt" : ""}>
-        <button aria-current=${k === at} onClick=${() => set_chosen(k)}>${plain(r.name)}
+        <button aria-current=${k === at} onClick=${() => set_chosen(r)}>${plain(r.name)}
           <small>${doubts.get(r.name) ?? [r.condition === r.name ? "" : plain(r.condition), r.drive_level === null ? "" : `${+r.drive_level.toPrecision(4)} ${known.drive_unit}`, `${r.samples} samples`].filter(Boolean).join(" · ")}</small></button></li>`)}</ul>
       ${known?.unread?.length > 0 && html`<details open><summary>${known.unread.length} not read</summary>${known.unread.map((f) => html`<p class="error">${f.why}</p>`)}</details>`}
       ${known?.passed_over?.length > 0 && html`<details><summary>${known.passed_over.length} passed over</summary>${known.passed_over.map((f) => html`<p class="note">${f.file}: ${f.why}</p>`)}</details>`}
@@ -171,10 +173,10 @@ export function Recordings({known, version, theme, on_changed}) {
       ${!record ? html`<p class="empty">Drop recordings of a damper to see them.</p>` : html`
         <div class="row"><h2>${plain(record.name)}</h2>${window && html`<button class="plain" onClick=${() => zoom()}>Show all</button>`}
           <span class="note">A drag along time zooms; with Ctrl or Shift, the wheel does.</span></div>
-        <div class="plots">${in_time.map(([name, label]) => html`<${ChannelPlot} key=${name} record=${at} version=${version} x="time" y=${name} title=${label.replace(/ \(.*/, "")}
+        <div class="plots">${in_time.map(([name, label]) => html`<${ChannelPlot} key=${name} record=${record.name} version=${version} x="time" y=${name} title=${label.replace(/ \(.*/, "")}
           x_label="Time (s)" y_label=${label} window=${window} on_zoom=${zoom} theme=${theme} height=${190} />`)}
           ${[["velocity", "Velocity (m/s)"], ["displacement", "Displacement (m)"]].filter(([name]) => record.channels.includes(name) && record.channels.includes("force")).map(([name, label]) =>
-            html`<${ChannelPlot} key=${`loop-${name}`} record=${at} version=${version} x=${name} y="force" title="Force over ${name}" x_label=${label} y_label="Force (N)" window=${window} theme=${theme} height=${300} width=${400} />`)}
+            html`<${ChannelPlot} key=${`loop-${name}`} record=${record.name} version=${version} x=${name} y="force" title="Force over ${name}" x_label=${label} y_label="Force (N)" window=${window} theme=${theme} height=${300} width=${400} />`)}
         </div>
         ${record.notes.length > 0 && html`<details><summary>${record.notes.length} notes on this record</summary>${record.notes.map((n) => html`<p class="note">${n}</p>`)}</details>`}
         <${Correction} record=${record} known=${known} on_done=${on_changed} />

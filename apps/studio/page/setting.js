@@ -5,9 +5,9 @@ const kReach = 10;
 const rounded = (value) => String(+value.toPrecision(3));
 
 // Where the slider goes from and to; logarithmic where the number is positive.
-function scale_of({default: usual, lower, upper}) {
+function scale_of({default: usual, lower, upper, span = 1}) {
   if (usual > 0 && lower >= 0) return {low: Math.log(Math.max(lower, usual / kReach)), high: Math.log(Math.min(upper, usual * kReach)), to: Math.log, from: Math.exp};
-  const reach = usual === 0 ? Math.min(1, upper) : Math.abs(usual) * kReach;
+  const reach = usual === 0 ? Math.min(span, upper) : Math.abs(usual) * kReach;
   return {low: Math.max(lower, usual - reach), high: Math.min(upper, usual + reach), to: (x) => x, from: (x) => x};
 }
 
@@ -17,8 +17,11 @@ export function Setting({row, value, on_change, name}) {
   const label = row.name.replaceAll("_", " ");
   return html`<div class="setting" title=${row.meaning}><span>${label}${row.unit === "1" ? "" : ` (${row.unit})`}</span>
     <input type="range" aria-label="${name}: ${label}" min=${scale.low} max=${scale.high} step="any" value=${place} onInput=${(event) => on_change(rounded(scale.from(+event.target.value)))} />
-    <input aria-label="${name}: ${label}, as a number" inputmode="decimal" placeholder=${rounded(row.default)} value=${text} onInput=${(event) => on_change(event.target.value)} /></div>`;
+    <input aria-label="${name}: ${label}, as a number" inputmode="decimal" placeholder=${row.empty ?? rounded(row.default)} value=${text} onInput=${(event) => on_change(event.target.value)} /></div>`;
 }
+
+// What was typed as a number, or as it is for the studio to refuse; nothing where the field is empty.
+export const typed = (text) => text.trim() === "" ? undefined : Number.isFinite(+text) ? +text : text;
 
 // The settings of a thing, of which only those that were changed become words.
 export const setting_words = (values = {}) => Object.entries(values).filter(([, value]) => value !== "").map(([name, value]) => `${name}=${value}`).join(",");

@@ -1,7 +1,7 @@
 // A model under the hand: current, amplitude and frequency of a sine and the parameters of a law or a damper as sliders, the
 // loops redrawn at each move over a measured one. The model runs here, as the module that `dashpot export --to js` writes.
 import {html, useEffect, useMemo, useRef, useState} from "/htm.mjs";
-import {ask, tell} from "/ask.js";
+import {ask, opened, tell} from "/ask.js";
 import {Command} from "/command.js";
 import {useKept} from "/kept.js";
 import {extent, Plot} from "/plot.js";
@@ -41,20 +41,20 @@ function useRecord(records, at) {
     if (!found) return;
     let is_old = false;
     const over = async (x) => {
-      const got = await ask("/api/view", {record: found.at, x, y: "force", width: 400});
+      const got = await ask("/api/view", {name: found.name, x, y: "force", width: 400});
       return {x: got.x.map((value) => value === null ? NaN : 1e3 * value), y: got.y};
     };
     Promise.all([over("velocity"), over("displacement")])
       .then(([velocity, displacement]) => is_old || set_loops({name: found.name, current: found.drive_level, conditions: found.conditions, velocity, displacement}))
       .catch(() => {});
     return () => { is_old = true; };
-  }, [found?.name, found?.at]);
+  }, [found?.name]);
   return loops;
 }
 
 function Model({program, path, known, theme, on_fit}) {
   const {model} = program;
-  const records = useMemo(() => (known?.records ?? []).map((record, at) => ({...record, at})).filter((record) => record.drive_level !== null), [known]);
+  const records = useMemo(() => (known?.records ?? []).filter((record) => record.drive_level !== null), [known]);
   const [over, set_over] = useKept("sliders-over", records.length >> 1), record = useRecord(records, over);
   const sliders = useMemo(() => motion_sliders(model), [program]), own = useMemo(() => parameter_sliders(model), [program]);
 
@@ -96,7 +96,7 @@ export function Sliders({known, version, theme, fits, go, on_changed}) {
     if (!path) return;
     let is_old = false;
     set_error("");
-    import(`/api/module?model=${encodeURIComponent(path)}`).then((program) => is_old || set_got({path, program}))
+    import(opened(`/api/module?model=${encodeURIComponent(path)}`)).then((program) => is_old || set_got({path, program}))
       // A browser does not say why a module could not be had: asked for again, the studio does.
       .catch((problem) => ask("/api/module", {model: path}).then(() => problem, (said) => said).then(({message}) => is_old || set_error(message)));
     return () => { is_old = true; };

@@ -40,7 +40,7 @@ function Studio() {
   // News come as a number that grows; a hidden page asks for none.
   useEffect(() => {
     reload();
-    let is_over = false, seen = 0;
+    let is_over = false, seen = 0, corrections;
     (async () => {
       while (!is_over) {
         if (document.hidden) await new Promise((done) => document.addEventListener("visibilitychange", done, {once: true}));
@@ -48,7 +48,10 @@ function Studio() {
           const news = await ask("/api/changes", {since: seen});
           if (news.version !== seen) await reload_fits();
           else await new Promise((done) => setTimeout(done, 500));
+          // Another browser may have corrected a recording.
+          if (corrections !== undefined && news.corrections !== corrections) await reload();
           seen = news.version;
+          corrections = news.corrections;
           set_problem("");
           await new Promise((done) => setTimeout(done, 150));
         } catch (error) {

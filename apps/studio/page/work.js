@@ -1,6 +1,6 @@
 // Work in the background, rides and designs as fits are: its state, and what one can do with it.
 import {html, useEffect, useState} from "/htm.mjs";
-import {ask, tell} from "/ask.js";
+import {ask, opened, tell} from "/ask.js";
 
 const kStates = {running: "running", stopped: "stopped", done: "done", failed: "failed"};
 
@@ -36,7 +36,7 @@ export function WorkHead({kind, one, act, again, is_endless}) {
   return html`<header><h3>${one.name}</h3><span class="state" role="status">${kStates[one.state] ?? one.state}${one.state === "running" && one.stage ? `: ${one.stage}` : ""}</span>
       ${one.state === "running" && html`<button class="plain" onClick=${() => act("stop", one.name)}>Stop</button>`}
       ${(one.state === "stopped" || one.state === "failed" || (is_endless && one.state === "done")) && one.arguments.length > 0 && html`<button class="plain" onClick=${() => act("go_on", one.name)}>${again}</button>`}
-      ${one.has_report && one.state !== "running" && html`<a href="/report/${kind}/${encodeURIComponent(one.name)}" target="_blank" rel="noopener">Report</a>`}
+      ${one.has_report && one.state !== "running" && html`<a href=${opened(`/report/${kind}/${encodeURIComponent(one.name)}`)} target="_blank" rel="noopener">Report</a>`}
     </header>
     ${one.state === "running" && html`<progress max="1" value=${one.fraction} aria-label="Progress of ${one.name}"></progress>`}
     ${one.message && html`<p class="error">${one.message}</p>`}`;

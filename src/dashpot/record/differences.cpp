@@ -64,6 +64,13 @@ std::vector<LevelDifference> differences(const Characterisation& first,
         .knee_rebound = difference_of(one.rebound.knee, other->rebound.knee),
         .knee_compression = difference_of(one.compression.knee, other->compression.knee)};
 
+    // A knee among speeds and one in a loop are found in different ways: what the fits scatter by
+    // tells nothing of whether the two differ.
+    if (one.basis != other->basis)
+      for (Difference* figure :
+           {&level.friction, &level.yield, &level.knee_rebound, &level.knee_compression})
+        figure->noise = kNoNumber;
+
     // At the stated speeds, or at those of the first.
     std::vector<double> at = speeds;
     if (at.empty())

@@ -76,9 +76,9 @@ std::string level_text(const std::vector<const Record*>& records) {
 }
 
 /// The names of a file's records as a template, "15 mm 1 Hz, {level} A", where they are others than
-/// the file gives by itself. `level` tells that the entry states the level of each.
+/// the file gives by itself. `drive_unit`: of the level of each that the entry states; empty: none.
 std::string name_text(const std::vector<const Record*>& records, const std::string& file,
-                      bool level) {
+                      const std::string& drive_unit) {
   if (records.empty() || fs::path(file).filename().string().starts_with(records[0]->name))
     return "";
   std::set<std::string> templates;
@@ -86,10 +86,13 @@ std::string name_text(const std::vector<const Record*>& records, const std::stri
     std::string name = record->name;
     if (name.find_first_of("{}") != std::string::npos) return "";
 
-    // Behind the motion stands the level; names that differ in it alone share an entry.
-    const std::string number = level ? format_number(*record->drive_level) : "";
-    const std::size_t at = name.rfind(' ' + number + ' ');
-    if (level && at != std::string::npos) name.replace(at + 1, number.size(), "{level}");
+    // Behind the motion stands the level with its unit, so that no frequency is taken for it; names
+    // that differ in it alone share an entry.
+    if (!drive_unit.empty()) {
+      const std::string number = format_number(*record->drive_level);
+      const std::size_t at = name.rfind(' ' + number + ' ' + drive_unit);
+      if (at != std::string::npos) name.replace(at + 1, number.size(), "{level}");
+    }
     templates.insert(name);
   }
   if (templates.size() > 1) return "";
@@ -137,7 +140,8 @@ std::string entry_text(const Dataset& dataset, const std::string& file) {
   const bool driven = dataset.drive_unit != DriveUnit::None;
   const std::string level = has_drive || !driven ? "" : level_text(records);
   return "    channels:\n" + channels + unused + time + level +
-         name_text(records, file, !level.empty()) + condition_text(records);
+         name_text(records, file, level.empty() ? "" : name_of(dataset.drive_unit)) +
+         condition_text(records);
 }
 
 /// A pattern that matches this file of the folder: what would be a pattern in its name may be any

@@ -93,8 +93,8 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
     const auto add = [&](const std::string& what, const Difference& d, const char* si_unit) {
       if (!std::isfinite(d.value())) return;
       table.rows.push_back({drive_name(level.drive, unit), what + ' ' + unit_name(si_unit),
-                            quantity(d.first, si_unit), quantity(d.second, si_unit),
-                            quantity(d.value(), si_unit), quantity(d.noise, si_unit, 2),
+                            plain_quantity(d.first, si_unit), plain_quantity(d.second, si_unit),
+                            plain_quantity(d.value(), si_unit), quantity(d.noise, si_unit, 2),
                             clear_text(d)});
     };
     add("friction", level.friction, "N");
@@ -104,7 +104,11 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
     add("knee rebound", level.knee_rebound, "m/s");
     add("knee compr.", level.knee_compression, "m/s");
   }
-  table.note = "Noise: the standard errors of both. Clear: the difference is more than twice it.";
+  table.note =
+      "Noise: the standard errors of both; none where one has a knee among its speeds and the "
+      "other "
+      "in a loop of its fastest record, which are not alike. Clear: the difference is more than "
+      "twice it.";
   shorten(table);
   return table;
 }

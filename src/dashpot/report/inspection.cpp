@@ -170,7 +170,7 @@ DocumentTable record_table(const Dataset& dataset) {
           record.size() ? record.time.back() - record.time.front() : 0.0,
           record.sample_time > 0 ? 1 / record.sample_time : kNoNumber, x.first, x.second,
           std::max(std::abs(v.first), std::abs(v.second)), force.first, force.second})
-      row.push_back({quantity(value, columns[row.size() - 2].second), value});
+      row.push_back({plain_quantity(value, columns[row.size() - 2].second), value});
     row[3].text = std::to_string(record.size());
     row.push_back({role_name(record.role)});
     table.chooses.push_back({{"record", table.rows.size()}});
@@ -310,9 +310,10 @@ Document inspection_document(const InspectionInput& input) {
                                  .paragraphs = {},
                                  .tables = {velocity_table(input.checks)}});
   document.provenance = provenance_section(
-      dataset, fmt::format("Up to {} samples of a record are shown; of longer ones, the least and "
-                           "greatest values of every stretch.",
-                           points));
+      dataset,
+      fmt::format("Up to {} samples of a record are shown; of longer ones, samples at even "
+                  "distances and the least and greatest values of every stretch.",
+                  points));
   return document;
 }
 

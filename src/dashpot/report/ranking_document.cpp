@@ -92,13 +92,15 @@ DocumentSection ranking_section(const Ranking& ranking) {
     paragraphs.push_back(*validated);
   if (const std::optional<std::string> freed = inertia_note(ranking)) paragraphs.push_back(*freed);
   return {.name = "ranking",
-          .title = "Ranking",
+          .title = ranking.seen ? "Errors" : "Ranking",
           .paragraphs = std::move(paragraphs),
           .tables = {std::move(table)},
           .remarks = inertia_remarks(ranking),
-          .lead =
-              "Best first. Every figure is of left-out records in free run unless its column says "
-              "otherwise; a click on a head sorts, a click on a row looks closer."};
+          .lead = ranking.seen
+                      ? "Every figure is of " + judged_records(ranking) + ", in free run."
+                      : "Best first. Every figure is of left-out records in free run unless its "
+                        "column says otherwise; a click on a head sorts, a click on a row looks "
+                        "closer."};
 }
 
 /// None where no model has an interval.
@@ -131,14 +133,13 @@ DocumentSection closer_section(const ReportInput& input, std::vector<SharedSampl
   const std::vector<ShownRecord> records = shown_records(ranking);
   DocumentChoice model{"model", "Model", {}}, record{"record", "Record", {}};
   for (const ShownRecord& one : records) record.options.push_back(one.label());
-  DocumentSection section{
-      .name = "closer",
-      .title = "A closer look",
-      .paragraphs = {},
-      .lead =
-          "One model on one record, left out unless it is marked; the loops show all records of "
-          "the same motion.",
-      .audience = Audience::Page};
+  DocumentSection section{.name = "closer",
+                          .title = "A closer look",
+                          .paragraphs = {},
+                          .lead = std::string("One model on one record") +
+                                  (ranking.seen ? "" : ", left out unless it is marked") +
+                                  "; the loops show all records of the same motion.",
+                          .audience = Audience::Page};
 
   // A sentence for each model on each record.
   for (std::size_t m = 0; m < ranking.models.size(); ++m) {
@@ -184,13 +185,17 @@ std::vector<std::string> warnings_of(const RankedModel& model,
   return lines;
 }
 
-/// The final fit of each model, and its errors record by record.
+/// The final fit of each model, and its errors record by record; the latter alone of a model that
+/// was fitted elsewhere.
 DocumentSection fitted_section(const Ranking& ranking) {
   DocumentSection section{
       .name = "fitted",
-      .title = "Fitted on all training records",
+      .title = ranking.seen ? "Record by record" : "Fitted on all training records",
       .paragraphs = {},
-      .lead = "The final fit of the chosen model, and each left-out record with its force offset."};
+      .lead = ranking.seen
+                  ? "Each record with its force offset."
+                  : "The final fit of the chosen model, and each left-out record with its force "
+                    "offset."};
   for (std::size_t m = 0; m < ranking.models.size(); ++m) {
     const RankedModel& model = ranking.models[m];
     const When here{{"model", {m}}};
@@ -199,7 +204,7 @@ DocumentSection fitted_section(const Ranking& ranking) {
       section.tables.back().title =
           "Parameters of " + display_name(model) + ", with 95 % intervals";
       section.tables.back().when = here;
-    } else if (model.fit.model) {
+    } else if (model.fit.model && !ranking.seen) {
       section.lists.push_back({.title = {},
                                .lines = {display_name(model) + " is fitted as a whole: " +
                                          counted(model.fit.model->parameter_count(), "number") +
@@ -209,8 +214,9 @@ DocumentSection fitted_section(const Ranking& ranking) {
     }
 
     // Errors record by record, and the warnings of its fits.
-    section.tables.push_back(record_table(model.left_out));
-    section.tables.back().title = "Left-out records, " + display_name(model);
+    section.tables.push_back(
+        record_table(model.left_out, ranking.seen ? "Record" : "Left-out record"));
+    section.tables.back().title = records_title(ranking) + ", " + display_name(model);
     section.tables.back().when = here;
     section.tables.back().audience = Audience::Files;
     if (!model.validation.records.empty()) {
@@ -231,11 +237,11 @@ DocumentSection fitted_section(const Ranking& ranking) {
 std::vector<KeyFigure> key_figures(const Ranking& ranking) {
   if (ranking.models.empty() || ranking.models.front().left_out.records.empty()) return {};
   const Evaluation& best = ranking.models.front().left_out;
-  return {
-      {percent_text(best.pooled.esr), "%", "of the force's power left unexplained (ESR)"},
-      {quantity(best.pooled.rmse, "N"), unit_name("N"), "RMS error, free run, left-out records"},
-      {percent_text(best.pooled.fit), "%", "fit: 100 (1 − √ESR)"},
-      {percent_text(best.worst_esr), "%", "ESR of the worst record, " + best.worst_record}};
+  return {{percent_text(best.pooled.esr), "%", "of the force's power left unexplained (ESR)"},
+          {quantity(best.pooled.rmse, "N"), unit_name("N"),
+           "RMS error, free run, " + judged_records(ranking)},
+          {percent_text(best.pooled.fit), "%", "fit: 100 (1 − √ESR)"},
+          {percent_text(best.worst_esr), "%", "ESR of the worst record, " + best.worst_record}};
 }
 
 }  // namespace

@@ -430,8 +430,8 @@ FigurePanel band_panel(const Ranking& ranking) {
       bars.y.push_back(bands[k].metrics.rmse);
       if (panel.places.size() < bands.size())
         panel.places.push_back(split(bands[k].name, ',').front() + "\n" +
-                               quantity(bands[k].low, "m/s", 2) + "–" +
-                               quantity(bands[k].high, "m/s", 2));
+                               plain_quantity(bands[k].low, "m/s") + "–" +
+                               plain_quantity(bands[k].high, "m/s"));
     }
     panel.series.push_back(std::move(bars));
   }

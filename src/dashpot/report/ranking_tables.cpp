@@ -97,7 +97,8 @@ const std::vector<ModelColumn>& model_columns() {
         figure(
             "training_esr_percent", "Train %",
             "ESR of the final fit on the records that it was fitted on",
-            [](Model m) { return m.training.pooled.esr; }, percent_text),
+            [](Model m) { return m.training.pooled.samples ? m.training.pooled.esr : kNoNumber; },
+            percent_text),
         figure(
             "mean_esr_percent", "Mean %", "Mean ESR over the left-out records",
             [](Model m) { return m.left_out.mean_esr; }, percent_text),

@@ -38,8 +38,7 @@ DocumentTable interval_table(const Ranking& ranking);
 /// Value, 95 % interval and remarks of each fitted parameter.
 DocumentTable parameter_table(const FitReport& fit);
 /// A model's errors on each record; `title`: of the records.
-DocumentTable record_table(const Evaluation& evaluation,
-                           const std::string& title = "Left-out record");
+DocumentTable record_table(const Evaluation& evaluation, const std::string& title);
 
 /// "The 90 % interval of the model covers 88.1 % of the samples, ..."; empty without intervals.
 std::string interval_sentence(const Evaluation& evaluation);

@@ -111,7 +111,7 @@ DocumentSection residual_section(const Ranking& ranking) {
     const std::string verdict = residual_verdict(tests[m]);
     if (verdict.empty()) continue;
     section.tables.push_back(residual_table(tests[m]));
-    section.tables.back().title = "Left-out records, " + display_name(ranking.models[m]);
+    section.tables.back().title = records_title(ranking) + ", " + display_name(ranking.models[m]);
     section.tables.back().when = {{"model", {m}}};
     section.lists.push_back({.title = {}, .lines = {verdict}, .when = {{"model", {m}}}});
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "dashpot/base/text.h"
 #include "dashpot/report/front_parts.h"
 #include "dashpot/report/ride_figures.h"
@@ -219,6 +221,24 @@ DocumentTable step_table(const RideStudy& study) {
   return table;
 }
 
+/// What the same dampers do without control, where that is as good as one of these controllers.
+std::string held_sentence(const RideStudy& study,
+                          const std::vector<const RiddenVehicle*>& controllers) {
+  const DriveUnit unit = study.passive.road.vehicle->drive_unit;
+  for (const RiddenVehicle* one : controllers)
+    for (const TradeOff& held : study.held)
+      if (held.weighted <= on_road(*one, "weighted_acceleration") &&
+          held.tyre <= on_road(*one, "tyre_load"))
+        return fmt::format(
+            " {} is not worth its control here: the same dampers held at {} are as good in both, "
+            "{} m/s^2 weighted and {} % dynamic tyre load.",
+            one->name(),
+            unit == DriveUnit::None ? "drive " + number_text(held.setting, 3)
+                                    : number_text(held.setting, 3) + ' ' + to_string(unit),
+            number_text(held.weighted, 3), number_text(held.tyre, 3));
+  return "";
+}
+
 std::string verdict_of(const RideStudy& study) {
   const auto least = [&](const char* measure) -> const RiddenVehicle& {
     return *std::ranges::min_element(study.controlled, {}, [&](const RiddenVehicle& one) {
@@ -238,19 +258,21 @@ std::string verdict_of(const RideStudy& study) {
   // One sentence where the same controller is best in both, the passive damper among them: the
   // best of the controllers may still be worse than it.
   const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
-  if (study.controlled.size() == 1) return sentence(comfort, "");
+  const std::string beside = held_sentence(study, {&comfort, &holding});
+  if (study.controlled.size() == 1) return sentence(comfort, "") + beside;
   const auto beats_passive = [&](const RiddenVehicle& one, const char* measure) {
     return on_road(one, measure) < on_road(study.passive, measure);
   };
   const bool comforts = beats_passive(comfort, "weighted_acceleration"),
              holds = beats_passive(holding, "tyre_load");
   if (&comfort == &holding && comforts && holds)
-    return sentence(comfort, "Best in comfort and in road holding is ");
+    return sentence(comfort, "Best in comfort and in road holding is ") + beside;
   return sentence(comfort, comforts ? "Most comfortable is "
                                     : "None is more comfortable than passive; the nearest is ") +
          ' ' +
          sentence(holding, holds ? "Best on the road is "
-                                 : "None holds the road better than passive; the nearest is ");
+                                 : "None holds the road better than passive; the nearest is ") +
+         beside;
 }
 
 Value gains_json(const std::vector<GainPoint>& points) {

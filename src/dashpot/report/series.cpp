@@ -20,9 +20,13 @@ std::vector<std::size_t> thinned_indices(const std::vector<std::span<const doubl
     return chosen;
   }
 
-  // Every stretch keeps the extremes of every series.
-  const std::size_t stretches = std::max<std::size_t>(1, points / (2 * series.size()));
+  // Half of the room goes to the course of the curves.
+  const std::size_t half = points / 2;
   chosen = {0, n - 1};
+  for (std::size_t k = 0; k < half; ++k) chosen.push_back(k * n / half);
+
+  // In the other half every stretch keeps the extremes of every series.
+  const std::size_t stretches = std::max<std::size_t>(1, half / (2 * series.size()));
   for (std::size_t k = 0; k < stretches; ++k) {
     const std::size_t first = k * n / stretches, last = (k + 1) * n / stretches;
     for (const std::span<const double> one : series) {

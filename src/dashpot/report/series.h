@@ -8,9 +8,9 @@
 
 namespace dashpot {
 
-/// Which samples to show when there is room for about `points`: all when they fit; else, of equal
-/// stretches of samples, the least and the greatest value of every series, and both ends.
-/// Increasing.
+/// Which samples to show when there is room for about `points`: all when they fit; else half of
+/// them evenly, so that a curve keeps its shape however many series there are, and of equal
+/// stretches the least and the greatest value of every series; both ends. Increasing.
 std::vector<std::size_t> thinned_indices(const std::vector<std::span<const double>>& series,
                                          std::size_t points);
 

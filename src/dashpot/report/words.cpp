@@ -140,6 +140,18 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
          "is fitted on the former and judged on the latter.";
 }
 
+std::string judged_records(const Ranking& ranking) {
+  if (!ranking.seen) return "left-out records";
+  const std::size_t seen = *ranking.seen, all = ranking.models.front().left_out.records.size();
+  if (seen == 0) return "records that its fit has not seen";
+  return seen < all ? fmt::format("{} records, {} of them of its fit", all, seen)
+                    : "records of its fit";
+}
+
+std::string records_title(const Ranking& ranking) {
+  return ranking.seen ? "Records" : "Left-out records";
+}
+
 std::string protocol_title(const Ranking& ranking) {
   return ranking.seen ? "a model fitted elsewhere" : protocol_title(ranking.leave_out);
 }

@@ -31,6 +31,10 @@ bool is_judged(const RankedModel& model);
 std::string verdict(const Ranking& ranking);
 /// The same, and which of the dataset's records are suspect.
 std::string verdict(const Ranking& ranking, const Dataset& dataset);
+/// The records of the errors: "left-out records"; of a model that was fitted elsewhere
+/// "records of its fit". And what stands above a table of them: "Left-out records", "Records".
+std::string judged_records(const Ranking& ranking);
+std::string records_title(const Ranking& ranking);
 /// How records were left out: a few words, and in full.
 std::string protocol_title(const LeaveOut& leave_out);
 std::string protocol(const LeaveOut& leave_out, std::size_t folds);

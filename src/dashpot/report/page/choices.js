@@ -18,11 +18,16 @@ function choose(changes) {
   choice_listeners.forEach((listener) => listener());
 }
 
-// A labelled select that shows and sets the chosen option.
+// A labelled select that shows and sets the chosen option; on paper its text stands alone.
 function choice_select({name, label, options, chosen: first}) {
   chosen[name] = first;
   const node = chooser(name, label, options.map((option, i) => [String(i), option]), (value) => choose({[name]: Number(value)}));
-  const show = () => { node.querySelector("select").value = String(chosen[name]); };
+  const printed = element("span", {class: "printed"});
+  node.append(printed);
+  const show = () => {
+    node.querySelector("select").value = String(chosen[name]);
+    printed.textContent = options[chosen[name]];
+  };
   on_choice(show);
   show();
   return node;

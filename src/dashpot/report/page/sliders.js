@@ -18,10 +18,10 @@ function slider_node(slider, on_move) {
     show};
 }
 
-// A record of the page as loops.js takes it, in the units of the page.
-function measured_loop({displacement, velocity, force, first, ...record}, units) {
-  const cut = (place, {factor}) => Array.from(series_of(place).subarray(first), (value) => factor * value), y = cut(force, units.N);
-  return {...record, displacement: {x: cut(displacement, units.m), y}, velocity: {x: cut(velocity, units["m/s"]), y}};
+// A record of the page as loops.js takes it: its samples stand in the units of the page already.
+function measured_loop({displacement, velocity, force, first, ...record}) {
+  const cut = (place) => series_of(place).subarray(first), y = cut(force);
+  return {...record, displacement: {x: cut(displacement), y}, velocity: {x: cut(velocity), y}};
 }
 
 // How the curves of a loop look, by their role.
@@ -72,7 +72,7 @@ function document_sliders({models, records}, units) {
       redraw();
     };
     take_record = (place) => {
-      record = place === "" ? null : measured_loop(records[Number(place)], units);
+      record = place === "" ? null : measured_loop(records[Number(place)]);
       reset();
     };
     controls.replaceChildren(...nodes.slice(0, sliders.length).map(({node}) => node),

@@ -26,8 +26,7 @@ void require_stated(const PlantModel& model, const NamedValues& stated, const st
               "state all that it has, or {} for the numbers of the table");
 }
 
-Plant from_parameters(const PlantModel& model, const Value& parameters,
-                      const NamedValues& changes) {
+NamedValues read_parameters(const PlantModel& model, const Value& parameters) {
   NamedValues values;
   for (const auto& [name, value] : parameters.members()) {
     const ParameterRow& row =
@@ -36,10 +35,16 @@ Plant from_parameters(const PlantModel& model, const Value& parameters,
                                   ? checked(row, value.as_number(), value.where())
                                   : parse_value(row, value.as_string(), value.where()));
   }
-  const bool states_some = !values.empty();
+  return values;
+}
+
+/// `changes` replace what is stated.
+Plant from_parameters(const PlantModel& model, const NamedValues& stated,
+                      const NamedValues& changes, const std::string& where) {
+  NamedValues values = stated;
   values.insert(values.end(), changes.begin(), changes.end());
-  if (states_some) require_stated(model, values, parameters.where());
-  return make_plant(model, values, parameters.where());
+  if (!stated.empty()) require_stated(model, values, where);
+  return make_plant(model, values, where);
 }
 
 std::vector<double> read_row(const Value& value, std::size_t size) {
@@ -131,8 +136,10 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
   } else {
     const Value& kind = reader.required("plant");
     set.kind = kind.as_string();
-    set.plant = from_parameters(find_plant_model(set.kind, kind.where()),
-                                reader.required("parameters"), values);
+    const PlantModel& model = find_plant_model(set.kind, kind.where());
+    const Value& parameters = reader.required("parameters");
+    set.stated = read_parameters(model, parameters);
+    set.plant = from_parameters(model, set.stated, values, parameters.where());
   }
 
   if (const Value* damping = reader.optional("damping")) set.damping = read_damping(*damping);
