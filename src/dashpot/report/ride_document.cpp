@@ -219,6 +219,24 @@ DocumentTable step_table(const RideStudy& study) {
   return table;
 }
 
+/// What its dampers do better on the road in both aims where they are held at one drive; "" where
+/// no drive does.
+std::string better_held(const RideStudy& study, const RiddenVehicle& one) {
+  const TradeOff* best = nullptr;
+  for (const TradeOff& point : study.held)
+    if (point.weighted < on_road(one, "weighted_acceleration") &&
+        point.tyre < on_road(one, "tyre_load") && (!best || point.weighted < best->weighted))
+      best = &point;
+  if (!best) return {};
+
+  const DriveUnit unit = one.road.vehicle->drive_unit;
+  const std::string drive = number_text(best->setting, 3);
+  return " Held at " +
+         (unit == DriveUnit::None ? "drive " + drive : drive + ' ' + to_string(unit)) +
+         ", without control, the same dampers are better in both than " + one.name() + ": a_w " +
+         number_text(best->weighted, 3) + " m/s^2, tyre load " + number_text(best->tyre, 3) + " %.";
+}
+
 std::string verdict_of(const RideStudy& study) {
   const auto least = [&](const char* measure) -> const RiddenVehicle& {
     return *std::ranges::min_element(study.controlled, {}, [&](const RiddenVehicle& one) {
@@ -238,19 +256,21 @@ std::string verdict_of(const RideStudy& study) {
   // One sentence where the same controller is best in both, the passive damper among them: the
   // best of the controllers may still be worse than it.
   const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
-  if (study.controlled.size() == 1) return sentence(comfort, "");
+  if (study.controlled.size() == 1) return sentence(comfort, "") + better_held(study, comfort);
   const auto beats_passive = [&](const RiddenVehicle& one, const char* measure) {
     return on_road(one, measure) < on_road(study.passive, measure);
   };
   const bool comforts = beats_passive(comfort, "weighted_acceleration"),
              holds = beats_passive(holding, "tyre_load");
   if (&comfort == &holding && comforts && holds)
-    return sentence(comfort, "Best in comfort and in road holding is ");
+    return sentence(comfort, "Best in comfort and in road holding is ") +
+           better_held(study, comfort);
   return sentence(comfort, comforts ? "Most comfortable is "
                                     : "None is more comfortable than passive; the nearest is ") +
          ' ' +
          sentence(holding, holds ? "Best on the road is "
-                                 : "None holds the road better than passive; the nearest is ");
+                                 : "None holds the road better than passive; the nearest is ") +
+         better_held(study, comfort) + (&comfort == &holding ? "" : better_held(study, holding));
 }
 
 Value gains_json(const std::vector<GainPoint>& points) {
