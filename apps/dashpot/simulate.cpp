@@ -47,11 +47,17 @@ Simulation simulate_choice(const SimulateSettings& settings, Console& console) {
     driven.notes.emplace_back(
         "left and right wheels meet the same road, so that the car does not roll; "
         "'track_width=1.5m' of the road gives each side its own");
+  const double duration = duration_of(settings.road, *ground);
+  const double discard = usual_discard(*ground, duration);
+  if (ground->is_steady() && discard == 0)
+    driven.notes.emplace_back(
+        "too short a run to leave out its start, in which vehicle and weighting settle: a_w is not "
+        "yet that of this ground");
   const auto vehicle = std::make_shared<const Vehicle>(std::move(driven));
 
   // Both runs have the same options, so that they can be compared.
   const RunOptions options{
-      .duration = duration_of(settings.road, *ground),
+      .duration = duration,
       .allowed_outside = settings.allowed_outside / 100,
       .relative_tolerance = settings.tolerance,
       .step = settings.step > 0 ? std::optional(settings.step / 1000) : std::nullopt,
@@ -60,7 +66,7 @@ Simulation simulate_choice(const SimulateSettings& settings, Console& console) {
   Simulation simulation{.run = run_vehicle(vehicle, *ground, options),
                         .ground = ground->description(),
                         .duration = options.duration,
-                        .discard = usual_discard(*ground, options.duration)};
+                        .discard = discard};
 
   // A controlled vehicle is compared with a passive one unless the user forbids it.
   if (settings.against == "none" || (settings.against.empty() && !vehicle->controller))

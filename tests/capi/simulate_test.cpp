@@ -63,6 +63,12 @@ TEST_CASE("words that nothing is known by are refused") {
                    current + std::string(": is -1; A or V, 0")));
   CHECK(contains(refusal(R"({"speed": 1})"), "unknown key 'speed'"));
   CHECK(contains(refusal("nonsense"), "options"));
+  // What would have no effect is refused, as on the command line.
+  CHECK(contains(refusal(R"({"current": 1, "controller": "mix1"})"),
+                 "current: is where there is no controller"));
+  for (const char* idle : {"\"inverse\": \"numeric\"", "\"in_car\": true", "\"delay\": 0.005"})
+    CHECK(contains(refusal(("{" + std::string(idle) + "}").c_str()),
+                   "serves a controller, and there is none"));
   CHECK(dashpot_simulate(nullptr, nullptr, nullptr, nullptr) == DASHPOT_BAD_INPUT);
   CHECK(trace == nullptr);
 }

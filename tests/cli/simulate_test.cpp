@@ -27,6 +27,22 @@ TEST_CASE("simulate: a car on a road of one track is said not to roll" *
                   "does not roll"));
 }
 
+TEST_CASE("simulate: what a short run and fixed steps cannot tell is said") {
+  // 15 s and more leave out their start, and a bump is all start.
+  const std::string road = "simulate --against none --road iso8608_fft,length=50 --duration ";
+  CHECK(contains(run_dashpot(road + "2").output, "too short a run to leave out its start"));
+  CHECK(!contains(run_dashpot(road + "15").output, "too short a run"));
+  CHECK(!contains(run_dashpot("simulate --road bump --duration 2").output, "too short a run"));
+
+  // Fixed steps of 1 ms let a strut leave hard stops of 10 mm by 60 mm (stop_stiffness=1e9).
+  const std::string stops =
+      "simulate --damper viscous,damping=500 --road sine,amplitude=2cm,frequency=2 --duration 2 "
+      "--plant quarter_car --set extension_stop=0.01,compression_stop=0.01";
+  CHECK(contains(run_dashpot(stops).output, "a stop is met in"));
+  CHECK(!contains(run_dashpot(stops).output, "steps that are fixed"));
+  CHECK(contains(run_dashpot(stops + " --max-step 1").output, "steps that are fixed"));
+}
+
 TEST_CASE("simulate: JSON, MATLAB traces, no comparison") {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();

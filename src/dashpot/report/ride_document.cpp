@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "dashpot/base/text.h"
 #include "dashpot/report/front_parts.h"
 #include "dashpot/report/ride_figures.h"
@@ -221,22 +219,22 @@ DocumentTable step_table(const RideStudy& study) {
   return table;
 }
 
-/// What the same dampers do without control, where that is as good as one of these controllers.
-std::string held_sentence(const RideStudy& study,
-                          const std::vector<const RiddenVehicle*>& controllers) {
-  const DriveUnit unit = study.passive.road.vehicle->drive_unit;
-  for (const RiddenVehicle* one : controllers)
-    for (const TradeOff& held : study.held)
-      if (held.weighted <= on_road(*one, "weighted_acceleration") &&
-          held.tyre <= on_road(*one, "tyre_load"))
-        return fmt::format(
-            " {} is not worth its control here: the same dampers held at {} are as good in both, "
-            "{} m/s^2 weighted and {} % dynamic tyre load.",
-            one->name(),
-            unit == DriveUnit::None ? "drive " + number_text(held.setting, 3)
-                                    : number_text(held.setting, 3) + ' ' + to_string(unit),
-            number_text(held.weighted, 3), number_text(held.tyre, 3));
-  return "";
+/// What its dampers do better on the road in both aims where they are held at one drive; "" where
+/// no drive does.
+std::string better_held(const RideStudy& study, const RiddenVehicle& one) {
+  const TradeOff* best = nullptr;
+  for (const TradeOff& point : study.held)
+    if (point.weighted < on_road(one, "weighted_acceleration") &&
+        point.tyre < on_road(one, "tyre_load") && (!best || point.weighted < best->weighted))
+      best = &point;
+  if (!best) return {};
+
+  const DriveUnit unit = one.road.vehicle->drive_unit;
+  const std::string drive = number_text(best->setting, 3);
+  return " Held at " +
+         (unit == DriveUnit::None ? "drive " + drive : drive + ' ' + to_string(unit)) +
+         ", without control, the same dampers are better in both than " + one.name() + ": a_w " +
+         number_text(best->weighted, 3) + " m/s^2, tyre load " + number_text(best->tyre, 3) + " %.";
 }
 
 std::string verdict_of(const RideStudy& study) {
@@ -258,21 +256,21 @@ std::string verdict_of(const RideStudy& study) {
   // One sentence where the same controller is best in both, the passive damper among them: the
   // best of the controllers may still be worse than it.
   const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
-  const std::string beside = held_sentence(study, {&comfort, &holding});
-  if (study.controlled.size() == 1) return sentence(comfort, "") + beside;
+  if (study.controlled.size() == 1) return sentence(comfort, "") + better_held(study, comfort);
   const auto beats_passive = [&](const RiddenVehicle& one, const char* measure) {
     return on_road(one, measure) < on_road(study.passive, measure);
   };
   const bool comforts = beats_passive(comfort, "weighted_acceleration"),
              holds = beats_passive(holding, "tyre_load");
   if (&comfort == &holding && comforts && holds)
-    return sentence(comfort, "Best in comfort and in road holding is ") + beside;
+    return sentence(comfort, "Best in comfort and in road holding is ") +
+           better_held(study, comfort);
   return sentence(comfort, comforts ? "Most comfortable is "
                                     : "None is more comfortable than passive; the nearest is ") +
          ' ' +
          sentence(holding, holds ? "Best on the road is "
                                  : "None holds the road better than passive; the nearest is ") +
-         beside;
+         better_held(study, comfort) + (&comfort == &holding ? "" : better_held(study, holding));
 }
 
 Value gains_json(const std::vector<GainPoint>& points) {

@@ -194,7 +194,11 @@ class Simulation {
                                     ? "a tyre has no contact in "
                                     : "a tyre pulls at the road, which none can, in ") +
                                share(trace.contact_lost));
-    if (stopped > 0) trace.warnings.push_back("a stop is met in " + share(stopped));
+    if (stopped > 0)
+      trace.warnings.push_back("a stop is met in " + share(stopped) +
+                               (options_.step ? ", in steps that are fixed, so that nothing "
+                                                "controls the error of its blows"
+                                              : ""));
     if (integrator_.counts().missed > 0)
       trace.warnings.push_back("the tolerance could not be met in " +
                                std::to_string(integrator_.counts().missed) + " of " +

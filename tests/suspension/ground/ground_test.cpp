@@ -240,6 +240,34 @@ TEST_CASE("recorded ground is read in the unit that its column names") {
                   "height_unit=mm") != std::string::npos);
 }
 
+TEST_CASE("no point of a measured road is lost where its steps are uneven") {
+  // A bump of 12 mm between two points 2.5 and 3 m along; the mean step of 6 m strode over it.
+  const TemporaryFolder folder;
+  write_file(folder.path() / "road.csv", "s [m],z [mm]\n0,0\n1,10\n2.5,12\n3,-5\n30,0\n");
+  const RoadProfile road = load_road(folder.path() / "road.csv");
+  CHECK_CLOSE(road.length(), 30, 1e-9, 0);
+  CHECK_CLOSE(road.spacing, 0.125, 1e-9, 0);
+  CHECK_CLOSE(road.tracks[0][8], 0.01, 1e-9, 0);
+  CHECK_CLOSE(road.tracks[0][20], 0.012, 1e-9, 0);
+  CHECK_CLOSE(road.tracks[0][24], -0.005, 1e-9, 0);
+  CHECK(road.description.find("30 m, heights over 17 mm") != std::string::npos);
+
+  // The finer track serves both.
+  write_file(folder.path() / "two.csv", "s_A,z_A,s_B,z_B\n0,0,0,0\n1,0,0.2,0.01\n2,0,2,0\n");
+  CHECK_CLOSE(load_road(folder.path() / "two.csv").spacing, 0.05, 1e-9, 0);
+
+  // Steps that differ beyond measure are refused, and so is a time in a distance's place.
+  write_file(folder.path() / "fine.csv", "s [m],z [mm]\n0,0\n1e-6,10\n100,12\n");
+  CHECK(message_of([&] {
+          load_road(folder.path() / "fine.csv");
+        }).find("steps from 1e-06 to 100 m") != std::string::npos);
+  write_file(folder.path() / "time.csv", "time,z [mm]\n0,0\n1,10\n2,12\n");
+  CHECK(message_of([&] {
+          load_road(folder.path() / "time.csv");
+        }).find("'time' is a time, and a road is heights over distance") != std::string::npos);
+  CHECK_CLOSE(load_road(folder.path() / "time.csv", "m").length(), 2, 1e-9, 0);
+}
+
 TEST_CASE("ground that cannot be made is refused, with what would be right") {
   const auto refusal = [](const std::string& text) {
     return message_of([&] { make_ground(text, 1); });

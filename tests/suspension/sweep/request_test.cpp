@@ -175,4 +175,21 @@ TEST_CASE(
   CHECK(message_of([] {
           parsed("controllers: {road: {}}\n", "plant: savaresi_spelta\nroad: sine\n");
         }).find("'road' cannot be the name of a controller") != std::string::npos);
+
+  // What a controller states for itself and does not use; above them all it is for the others.
+  const std::string car = "plant: savaresi_spelta\nroad: sine\ndampers: kwok2006\n";
+  const std::pair<std::string, std::string> idle[] = {
+      {"{controller: skyhook, current: 1}", "current is where there is no controller"},
+      {"{sensors: in_car}", "sensors serves a controller"},
+      {"{inverse: numeric}", "inverse serves a controller"}};
+  for (const auto& [words, part] : idle) {
+    const std::string message =
+        message_of([&] { parsed("controllers:\n  a: " + words + "\n", car); });
+    CAPTURE(message);
+    CHECK(message.starts_with("test.yaml:5"));
+    CHECK_MESSAGE(message.find(part) != std::string::npos, part);
+  }
+  CHECK(parsed("controllers: {a: {}, b: {controller: skyhook}}\n",
+               car + "current: 1\nsensors: in_car\ninverse: numeric\n")
+            .controllers.size() == 2);
 }

@@ -5,6 +5,7 @@
 #include "dashpot/base/sensor_unit.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/earthquake.h"
@@ -96,6 +97,33 @@ std::vector<double> in_seconds(const RawColumn& column, const std::string& file)
   return values;
 }
 
+/// A road is heights over distance: a column that is named a time is not taken for metres.
+void require_distance(const RawColumn& column, std::string_view stated, const std::string& file) {
+  if (stated.empty() && recognise_channel(column.name, column.unit).channel == "time")
+    throw Error(file, "'" + column.name + "' is a time, and a road is heights over distance",
+                "a distance (time times speed); distance_unit=m where it is one");
+}
+
+/// The mean step where all are alike to a tenth, as in a profiler's file. Else a quarter of the
+/// least step, so that no point is lost between two steps of the mean.
+double spacing_of(const std::vector<double>& way, const std::string& file) {
+  constexpr double kMostPoints = 1e7;
+  const double length = way.back() - way.front();
+  const double mean = length / static_cast<double>(way.size() - 1);
+  double least = mean, greatest = mean;
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    least = std::min(least, way[k] - way[k - 1]);
+    greatest = std::max(greatest, way[k] - way[k - 1]);
+  }
+  if (least >= 0.9 * mean && greatest <= 1.1 * mean) return mean;
+  if (length > 0.25 * least * kMostPoints)
+    throw Error(file,
+                "its distance has steps from " + format_number(least, 3) + " to " +
+                    format_number(greatest, 3) + " m",
+                "steps that are more alike");
+  return length / std::ceil(length / (0.25 * least));
+}
+
 /// Heights at equal steps of the way, straight between the samples, from 0.
 std::vector<double> resampled(const std::vector<double>& way, const std::vector<double>& height,
                               double spacing, std::size_t count) {
@@ -120,28 +148,31 @@ RoadProfile load_road(const std::filesystem::path& path, std::string_view distan
     throw Error(file, "has " + std::to_string(table.columns.size()) + " columns",
                 "distance and height, in pairs: one per track");
 
-  // The first track's distances give the spacing and the count of all.
+  // The least spacing of all tracks serves each; the road is as long as its first track.
   RoadProfile road{"measured road " + path.filename().string(), 0, {}};
-  std::size_t count = 0;
+  std::vector<std::vector<double>> ways;
   for (std::size_t k = 0; k < table.columns.size(); k += 2) {
-    const std::vector<double> way = in_metres(table.columns[k], distance_unit, file);
-    require_rising(way, file, "the distance");
-    if (k == 0) {
-      road.spacing = (way.back() - way.front()) / static_cast<double>(way.size() - 1);
-      count = way.size();
-    }
-    road.tracks.push_back(
-        resampled(way, in_metres(table.columns[k + 1], height_unit, file), road.spacing, count));
+    require_distance(table.columns[k], distance_unit, file);
+    ways.push_back(in_metres(table.columns[k], distance_unit, file));
+    require_rising(ways.back(), file, "the distance");
+    const double spacing = spacing_of(ways.back(), file);
+    road.spacing = k == 0 ? spacing : std::min(road.spacing, spacing);
   }
+  const double length = ways.front().back() - ways.front().front();
+  const std::size_t count = static_cast<std::size_t>(std::lround(length / road.spacing)) + 1;
+  for (std::size_t k = 0; k < ways.size(); ++k)
+    road.tracks.push_back(resampled(ways[k], in_metres(table.columns[2 * k + 1], height_unit, file),
+                                    road.spacing, count));
 
-  // Whoever reads the result sees whether the unit was the right one.
+  // Whoever reads the result sees whether the units were the right ones.
   double lowest = 0, highest = 0;
   for (const std::vector<double>& track : road.tracks) {
     const auto [low, high] = std::ranges::minmax(track);
     lowest = std::min(lowest, low);
     highest = std::max(highest, high);
   }
-  road.description += ", heights over " + format_number(1e3 * (highest - lowest), 3) + " mm";
+  road.description += ", " + format_number(length, 4) + " m, heights over " +
+                      format_number(1e3 * (highest - lowest), 3) + " mm";
   if (height_unit.empty() && unit_of(table.columns[1], kOfLength).empty())
     road.description += " (its column '" + table.columns[1].name + "' names no unit: taken as m)";
   return road;

@@ -104,6 +104,23 @@ void read_values(const Value& value, VehicleWords& words) {
                                                                  : member.as_string()));
 }
 
+/// Refuses what a controller states for itself and does not use, as the command line does. What
+/// stands above them all is for those that use it.
+void require_effect(const Value& stated, const VehicleWords& words) {
+  if (!words.controller.empty()) {
+    if (const Value* current = stated.find("current"); current && words.current != 0)
+      throw Error(current->where(),
+                  "current is where there is no controller, which chooses its own", "leave it out");
+    return;
+  }
+  for (const auto& [key, is_said] : {std::pair{"inverse", !words.inverse.empty()},
+                                     {"force_loop", !words.force_loop.empty()},
+                                     {"sensors", words.sensors.in_car}})
+    if (const Value* value = stated.find(key); value && is_said)
+      throw Error(value->where(), std::string(key) + " serves a controller, and there is none",
+                  "name one as 'controller', or leave it out");
+}
+
 std::vector<SweepController> read_controllers(const Value& value, const VehicleWords& common,
                                               const fs::path& folder) {
   std::vector<SweepController> controllers;
@@ -118,6 +135,7 @@ std::vector<SweepController> read_controllers(const Value& value, const VehicleW
     ObjectReader reader(member, "a controller");
     read_words(reader, controller.words, folder);
     reader.finish();
+    require_effect(member, controller.words);
     controllers.push_back(std::move(controller));
   }
   if (controllers.empty())
