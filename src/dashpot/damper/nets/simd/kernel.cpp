@@ -1,7 +1,7 @@
 // Compiled once per instruction set, into a table of functions of its own. DASHPOT_KERNEL names the
 // function that hands the table out; kernel_dispatch.cpp chooses among them.
-#include "dashpot/damper/nets/simd/gram.h"
 #include "dashpot/damper/nets/simd/neuron_lanes.h"
+#include "dashpot/damper/nets/simd/products.h"
 #include "dashpot/damper/nets/simd/respond.h"
 #include "dashpot/damper/nets/simd/sample_lanes.h"
 #include "dashpot/damper/nets/simd/tables.h"
