@@ -105,10 +105,8 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
     add("knee compr.", level.knee_compression, "m/s");
   }
   table.note =
-      "Noise: the standard errors of both; none where one has a knee among its speeds and the "
-      "other "
-      "in a loop of its fastest record, which are not alike. Clear: the difference is more than "
-      "twice it.";
+      "Noise: the standard errors of both; none where a knee is found among speeds in one and in a "
+      "loop in the other, which are not alike. Clear: the difference is more than twice it.";
   shorten(table);
   return table;
 }

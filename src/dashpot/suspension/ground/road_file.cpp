@@ -105,7 +105,7 @@ void require_distance(const RawColumn& column, std::string_view stated, const st
 }
 
 /// The mean step where all are alike to a tenth, as in a profiler's file. Else a quarter of the
-/// least step, so that no point is lost between two steps of the mean.
+/// least step, so that of what a point stands above its neighbours an eighth is lost at most.
 double spacing_of(const std::vector<double>& way, const std::string& file) {
   constexpr double kMostPoints = 1e7;
   const double length = way.back() - way.front();
@@ -116,6 +116,8 @@ double spacing_of(const std::vector<double>& way, const std::string& file) {
     greatest = std::max(greatest, way[k] - way[k - 1]);
   }
   if (least >= 0.9 * mean && greatest <= 1.1 * mean) return mean;
+
+  // Uneven: as fine as the least step asks for, within reason.
   if (length > 0.25 * least * kMostPoints)
     throw Error(file,
                 "its distance has steps from " + format_number(least, 3) + " to " +
