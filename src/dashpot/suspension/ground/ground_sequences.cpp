@@ -1,6 +1,7 @@
 #include "dashpot/suspension/ground/ground_sequences.h"
 
 #include <array>
+#include <filesystem>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -172,6 +173,12 @@ const GroundSequence& find_ground_sequence(std::string_view name, const std::str
     known.emplace_back(sequence.info.name);
   }
   for (const RecordedGround& kind : recorded_grounds()) known.emplace_back(kind.name);
+
+  const std::string file(name);
+  if (std::filesystem::path(file).has_extension())
+    throw Error(where, "'" + file + "' is no kind of ground",
+                "of a file: measured,file=" + file +
+                    " (heights over distance) or earthquake,file=" + file + " (accelerations)");
   throw Error(where, "unknown motion of the ground '" + std::string(name) + "'",
               suggest(name, known));
 }
