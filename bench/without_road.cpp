@@ -403,6 +403,75 @@ void run_building(double seconds, const std::vector<std::string>& laws) {
   }
 }
 
+/// A half car as its user knows it; in truth its rear meets the road that its front met.
+InPlantSetup half_car(const std::string& road_class) {
+  return parse_in_plant_setup(
+      "plant: half_car\n"
+      "parameters:\n"
+      "  mass: {about: 600 kg, from: 400 kg, to: 1000 kg}\n"
+      "  inertia: {about: 1000 kg*m^2, from: 500 kg*m^2, to: 2500 kg*m^2}\n"
+      "  front_wheel_mass: 40 kg\n"
+      "  rear_wheel_mass: 45 kg\n"
+      "  front_stiffness: 17 N/mm\n"
+      "  rear_stiffness: 22 N/mm\n"
+      "  front_tyre_stiffness: {about: 150 kN/m}\n"
+      "  rear_tyre_stiffness: {about: 150 kN/m}\n"
+      "  front_distance: 1.3 m\n"
+      "  rear_distance: 1.5 m\n"
+      "inputs:\n"
+      "  - {kind: ground, at: front, class: " +
+          road_class +
+          ", speed: 20 m/s}\n"
+          "  - {kind: ground, at: rear, class: " +
+          road_class +
+          ", speed: 20 m/s}\n"
+          "sensors:\n"
+          "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+          "  - {channel: pitch, quantity: velocity, at: pitch, noise: 5e-3}\n"
+          "  - {channel: front, quantity: acceleration, at: front_wheel, noise: 0.05}\n"
+          "  - {channel: rear, quantity: acceleration, at: rear_wheel, noise: 0.05}\n"
+          "  - {channel: level_front, quantity: deflection, at: front, noise: 0.2 mm}\n"
+          "  - {channel: level_rear, quantity: deflection, at: rear, noise: 0.2 mm}\n"
+          "voltage: coil\n",
+      "half car");
+}
+const NamedValues kHalfCar = {{"mass", 690},
+                              {"inertia", 1222},
+                              {"front_tyre_stiffness", 200e3},
+                              {"rear_tyre_stiffness", 200e3}};
+
+/// half REPETITIONS TRUTH CLASS SECONDS LAW: how often a half car's intervals hold the truth.
+void run_half(int repetitions, const std::string& truth, const std::string& road_class,
+              double seconds, const std::string& law) {
+  const std::unique_ptr<LawModel> damper = true_damper(truth);
+  const InPlantSetup setup = half_car(road_class);
+  const std::string true_class = road_class == "unknown" ? "C" : road_class;
+  InPlantSetup true_setup = setup;
+  true_setup.unknown.clear();
+  true_setup.known.insert(true_setup.known.end(), kHalfCar.begin(), kHalfCar.end());
+  Coverage plant;
+  InPlantOptions options;
+  options.asymmetric = truth == "asymmetric";
+  double cpu = 0;
+  for (int k = 0; k < repetitions; ++k) {
+    const InPlantReport report = identify_in_plant(
+        find_law(law), setup, rides(true_setup, *damper, true_class, seconds / 3, 5000 + 7 * k),
+        options);
+    cpu += report.seconds / repetitions;
+    for (const FittedParameter& p : report.plant)
+      for (const auto& [name, value] : kHalfCar)
+        if (p.name == name) plant.add(p, value);
+    if (repetitions == 1) print_fit(report);
+    fmt::print(stderr, "{}: {}, body {:.1f}, tyres {:.0f} and {:.0f}\n", k, report.message,
+               found(report, "mass"), found(report, "front_tyre_stiffness"),
+               found(report, "rear_tyre_stiffness"));
+  }
+  fmt::print("{} in a half car with {}, class {}, {} s, {} repetitions; {:.1f} s of CPU each\n",
+             law, truth, road_class, seconds, repetitions, cpu);
+  plant.print();
+  plant.print_share();
+}
+
 }  // namespace
 
 bool run_without_road(const std::vector<std::string>& words) {
@@ -412,6 +481,10 @@ bool run_without_road(const std::vector<std::string>& words) {
   }
   if (words.size() == 6 && words[0] == "cover") {
     run_cover(std::stoi(words[1]), words[2], words[3], std::stod(words[4]), words[5]);
+    return true;
+  }
+  if (words.size() == 6 && words[0] == "half") {
+    run_half(std::stoi(words[1]), words[2], words[3], std::stod(words[4]), words[5]);
     return true;
   }
   if (words.size() == 7 && words[0] == "covered") {

@@ -348,7 +348,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   const InPlantSetup setup = read_in_plant_setup(asked.plant);
   for (const std::string& model : settings.fit.models)
     require_model_for_plant(model, setup, "--models");
-  if (settings.fit.options.asymmetric && !has_unmeasured_road(setup))
+  if (settings.fit.options.asymmetric && !unmeasured_road(setup))
     throw UsageError("--asymmetric", "has no meaning where the road is measured",
                      "both sides of the damper are alike there");
   const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);

@@ -223,12 +223,10 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
       lines.push_back(fmt::format("Noise of {}: {} {}, {}.", input.channel,
                                   quantity(input.noise, unit), unit_name(unit),
                                   origin(input.noise, input.identified)));
-  for (const PlantInputChannel& input : setup.inputs)
-    if (input.road)
-      lines.push_back(fmt::format("Road, not measured: G_d(n0) {} m^3 at {} m/s{}.",
-                                  format_number(report.noise.roughness, 3),
-                                  format_number(input.road->speed, 3),
-                                  input.road->roughness > 0 ? ", as its class says" : ", found"));
+  if (const RoadPrior* road = unmeasured_road(setup))
+    lines.push_back(fmt::format(
+        "Road, not measured: G_d(n0) {} m^3 at {} m/s{}.", format_number(report.noise.roughness, 3),
+        format_number(road->speed, 3), road->roughness > 0 ? ", as its class says" : ", found"));
   lines.push_back(fmt::format("{} steps of the filter per sample.", report.steps));
   return lines;
 }

@@ -67,7 +67,7 @@ TEST_CASE("input noise: what is mixed at random is told apart") {
   const NoiseSources truth{.sensors = {0.05, 0.5, 2e-4}, .inputs = {5e-4}, .force = {30, 0, 0}};
   std::vector<PlantInputPlace> inputs = {{PlantInput::Ground, 0}};
   const DrivenPlant plant(make_plant(*setup.model, setup.known), inputs);
-  PlantAtLine at(plant, setup, stand_in);
+  PlantAtLine at(plant, setup, {&stand_in, 1});
   Random random(3);
   std::vector<std::vector<std::complex<double>>> lines(
       3, std::vector<std::complex<double>>(kSamples / 2 + 1));

@@ -313,12 +313,18 @@ TEST_CASE("several dampers: what cannot be is refused, with what would be right"
                  "none says what the road does under the rear_tyre"));
   CHECK(contains(required("kind: ground, at: rear", "kind: ground, at: front"),
                  "two say what the road does under the front_tyre"));
-  CHECK(contains(required("{channel: rear_tyre_road, kind: ground, at: rear}",
-                          "{kind: ground, at: rear, class: C, speed: 20 m/s}"),
-                 "has 2 dampers, and a fit beside a road that nothing measures knows one"));
+  const std::string measured = "{channel: rear_tyre_road, kind: ground, at: rear}",
+                    unmeasured = "{kind: ground, at: rear, class: C, speed: 20 m/s}";
+  CHECK(required(measured, unmeasured).empty());
+  InPlantSetup both = half_car(measured, unmeasured);
+  both.inputs[0].road = RoadPrior{.roughness = 256e-6, .speed = 10};
+  CHECK(contains(message_of([&] { require_setup(both); }),
+                 "those that nothing measures differ in class or speed"));
 
   // Each damper is watched, but no road that follows another one.
   CHECK(message_of([&] { require_watchable(half_car(), {}); }).empty());
+  CHECK(contains(message_of([&] { require_watchable(half_car(measured, unmeasured), {}); }),
+                 "has 2 dampers, and 'watch' beside a road that nothing measures knows one"));
   CHECK(contains(message_of([&] {
                    require_watchable(half_car("{channel: rear_tyre_road, kind: ground, at: rear}",
                                               "{kind: ground, at: rear, follows: front_tyre_road, "

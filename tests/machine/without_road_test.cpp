@@ -33,22 +33,24 @@ InPlantSetup unmeasured_car(const std::string& old = "", const std::string& now 
   return parse_in_plant_setup(text, "car.yaml");
 }
 
-/// Two rides of a car whose truth is 387 kg, 295.2 N/mm and spencer1997.
-std::vector<PlantRecording> spencer_rides(double seconds) {
-  InPlantSetup truth = unmeasured_car();
-  truth.unknown.clear();
-  truth.known.insert(truth.known.end(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}});
+std::vector<PlantRecording> recordings_of(const std::vector<VirtualRide>& rides) {
   std::vector<PlantRecording> recordings;
-  for (const VirtualRide& ride : virtual_campaign(truth, load_parameters("spencer1997"),
-                                                  {.duration = seconds,
-                                                   .levels = {0, 1},
-                                                   .road = "iso8608,class=C,speed=20m/s",
-                                                   .seed = 31}))
+  for (const VirtualRide& ride : rides)
     recordings.push_back({.name = ride.recorded.name,
                           .sample_time = ride.recorded.sample_time,
                           .samples = ride.recorded.size(),
                           .channels = ride.recorded.channels});
   return recordings;
+}
+
+/// Two rides of a car whose truth is 387 kg, 295.2 N/mm and spencer1997.
+std::vector<PlantRecording> spencer_rides(double seconds) {
+  InPlantSetup truth = unmeasured_car();
+  truth.unknown.clear();
+  truth.known.insert(truth.known.end(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}});
+  return recordings_of(virtual_campaign(
+      truth, load_parameters("spencer1997"),
+      {.duration = seconds, .levels = {0, 1}, .road = "iso8608,class=C,speed=20m/s", .seed = 31}));
 }
 
 }  // namespace
@@ -91,6 +93,52 @@ TEST_CASE("without a road: masses, tyre and force of a damper of another structu
   }
 }
 
+TEST_CASE("without a road: a half car, each of whose tyres has a road of its own" *
+          doctest::test_suite("long")) {
+  const InPlantSetup setup = parse_in_plant_setup(
+      "plant: half_car\n"
+      "parameters: {mass: {about: 600 kg, from: 400 kg, to: 1000 kg},\n"
+      "  inertia: {about: 1000 kg*m^2, from: 500 kg*m^2, to: 2500 kg*m^2},\n"
+      "  front_wheel_mass: 40 kg, rear_wheel_mass: 45 kg, front_stiffness: 17 N/mm,\n"
+      "  rear_stiffness: 22 N/mm, front_tyre_stiffness: {about: 150 N/mm},\n"
+      "  rear_tyre_stiffness: {about: 150 N/mm}, front_distance: 1.3 m, rear_distance: 1.5 m}\n"
+      "inputs:\n"
+      "  - {kind: ground, at: front, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: rear, class: C, speed: 20 m/s}\n"
+      "sensors:\n"
+      "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+      "  - {channel: front, quantity: acceleration, at: front_wheel, noise: 0.05}\n"
+      "  - {channel: rear, quantity: acceleration, at: rear_wheel, noise: 0.05}\n"
+      "  - {channel: level_front, quantity: deflection, at: front, noise: 0.2 mm}\n"
+      "  - {channel: level_rear, quantity: deflection, at: rear, noise: 0.2 mm}\n"
+      "voltage: coil\n",
+      "half.yaml");
+  const NamedValues truth = {{"mass", 690},
+                             {"inertia", 1222},
+                             {"front_tyre_stiffness", 200e3},
+                             {"rear_tyre_stiffness", 200e3}};
+  InPlantSetup known = setup;
+  known.unknown.clear();
+  known.known.insert(known.known.end(), truth.begin(), truth.end());
+  const InPlantReport report = identify_in_plant(
+      find_law("tanh_kwok"), setup,
+      recordings_of(virtual_campaign(
+          known, load_parameters("spencer1997"),
+          {.duration = 12, .levels = {0, 1}, .road = "iso8608,class=C,speed=20m/s", .seed = 31})),
+      {});
+  CAPTURE(report.message);
+  REQUIRE(report.model);
+  CHECK(report.knowable.confounded.empty());
+  REQUIRE(report.plant.size() == truth.size());
+  for (std::size_t k = 0; k < truth.size(); ++k) {
+    CHECK(report.plant[k].name == truth[k].first);
+    CHECK_CLOSE(report.plant[k].value, truth[k].second, 0.06, 0);
+    CHECK(report.plant[k].high - report.plant[k].low < 0.15 * truth[k].second);
+  }
+  REQUIRE(report.traces.front().dampers.size() == 2);
+  CHECK(report.traces.front().dampers[1].strut == "rear");
+}
+
 TEST_CASE("without a road: what cannot be told is refused, with the reason") {
   const std::vector<PlantRecording> recordings = spencer_rides(2);
   const Law& law = find_law("tanh_kwok");
@@ -110,6 +158,25 @@ TEST_CASE("without a road: what cannot be told is refused, with the reason") {
   InPlantSetup late = unmeasured_car();
   for (PlantSensor& sensor : late.sensors) sensor.finds_delay = true;
   CHECK(contains(refusal(late, recordings), "state the delay of one sensor"));
+
+  // Two tracks.
+  const InPlantSetup full = parse_in_plant_setup(
+      "plant: full_car\n"
+      "parameters: {mass: {about: 1300 kg}, pitch_inertia: 2160 kg*m^2, roll_inertia: 460 kg*m^2,\n"
+      "  wheel_mass: 59 kg, front_stiffness: 35 kN/m, rear_stiffness: 38 kN/m,\n"
+      "  tyre_stiffness: 190 kN/m, front_distance: 1.4 m, rear_distance: 1.7 m,\n"
+      "  front_track: 1.5 m, rear_track: 1.5 m}\n"
+      "inputs:\n"
+      "  - {kind: ground, at: front_left, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: front_right, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: rear_left, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: rear_right, class: C, speed: 20 m/s}\n"
+      "sensors:\n"
+      "  - {channel: body, quantity: acceleration, at: body}\n"
+      "  - {channel: wheel, quantity: acceleration, at: front_left_wheel}\n"
+      "voltage: coil\n",
+      "full.yaml");
+  CHECK(contains(refusal(full, recordings), "left and right, which are alike in part"));
 
   // Signals that tell nothing.
   std::vector<PlantRecording> still = recordings;

@@ -19,19 +19,23 @@ LawModel dashpot_model(double damping) {
   return LawModel::constant(law, parameters);
 }
 
+/// strut: of several that in which the damper stands.
 Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recording,
-                       const ObservedRecording& observed) {
-  Record record{.name = recording.name, .source = recording.name, .condition = recording.name};
+                       const ObservedRecording& observed, const DamperQuantities& damper,
+                       const std::string& strut) {
+  const std::string name = recording.name + (strut.empty() ? "" : ", " + strut);
+  Record record{.name = name, .source = recording.name, .condition = name};
   record.sample_time = recording.sample_time;
   for (std::size_t k = 0; k < recording.samples; ++k)
     record.time.push_back(recording.sample_time * static_cast<double>(k));
 
   // What was observed, then the drive: its channel, or one level.
-  const char* const names[] = {"force", "displacement", "velocity"};
-  for (std::size_t q = 0; q < 3; ++q)
-    record.channels.push_back({.name = names[q],
-                               .unit = observed.quantities[q].unit,
-                               .samples = observed.quantities[q].value,
+  for (const auto& [channel, place] : {std::pair{"force", damper.force},
+                                       {"displacement", damper.deflection},
+                                       {"velocity", damper.velocity}})
+    record.channels.push_back({.name = channel,
+                               .unit = observed.quantities[place].unit,
+                               .samples = observed.quantities[place].value,
                                .origin = "observed"});
   if (setup.drive_unit != DriveUnit::None) {
     record.channels.push_back({.name = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current",
@@ -76,9 +80,28 @@ std::vector<Record> as_bench_records(const InPlantSetup& setup,
                                      const std::vector<PlantRecording>& fitted,
                                      const ObserveReport& observed) {
   std::vector<Record> records;
+  const std::size_t dampers = observed.struts.size();
   for (std::size_t r = 0; r < fitted.size(); ++r)
-    records.push_back(as_bench_record(setup, fitted[r], observed.recordings[r]));
+    for (std::size_t d = 0; d < dampers; ++d)
+      records.push_back(as_bench_record(setup, fitted[r], observed.recordings[r],
+                                        damper_quantities(d, dampers),
+                                        dampers > 1 ? observed.struts[d] : ""));
   return records;
+}
+
+std::vector<std::vector<DamperInput>> observed_motions(const InPlantSetup& setup,
+                                                       const PlantRecording& recording,
+                                                       const ObservedRecording& observed) {
+  const std::size_t dampers = setup.dampers();
+  std::vector<std::vector<DamperInput>> motions(dampers);
+  for (std::size_t d = 0; d < dampers; ++d) {
+    const auto [force, deflection, velocity] = damper_quantities(d, dampers);
+    for (std::size_t k = 0; k < recording.samples; ++k)
+      motions[d].push_back(
+          {observed.quantities[deflection].value[k], observed.quantities[velocity].value[k],
+           setup.drive.empty() ? setup.level : recording.channel(setup.drive).samples[k]});
+  }
+  return motions;
 }
 
 ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>& plant,

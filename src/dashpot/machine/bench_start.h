@@ -37,10 +37,16 @@ ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecordin
                                    const std::vector<InPlantTrace>& along,
                                    const InPlantOptions& options);
 
-/// Motion and force of the damper, as observed, as a bench would have recorded them.
+/// Motion and force of the dampers, as observed, as a bench would have recorded them: those of one
+/// recording after the other.
 std::vector<Record> as_bench_records(const InPlantSetup& setup,
                                      const std::vector<PlantRecording>& fitted,
                                      const ObserveReport& observed);
+
+/// The motion of each damper, as observed, with what drives it, at each sample.
+std::vector<std::vector<DamperInput>> observed_motions(const InPlantSetup& setup,
+                                                       const PlantRecording& recording,
+                                                       const ObservedRecording& observed);
 
 /// The law as a bench would find it from these, its sides apart where that is asked for and pays;
 /// null where no fit gets on, and for a law that is in no list.

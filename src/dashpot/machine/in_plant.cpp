@@ -202,8 +202,8 @@ PlantCases under_straight_force(const InPlantSetup& setup,
 Candidate start_of_law(const Law& law, const InPlantSetup& setup,
                        const std::vector<PlantRecording>& recordings, PlantCases& cases,
                        const PlantStart& start, const InPlantOptions& options) {
-  // One with a step of its own may have a sharp knee. The observer, which sees a damper as on a
-  // bench, knows one alone.
+  // One with a step of its own may have a sharp knee. Among several dampers the start from a bench
+  // led to the same place.
   const bool may_be_sharp = is_expected(setup) && law.step;
   const bool is_seen = is_expected(setup) && setup.dampers() == 1;
   std::optional<Candidate> from_bench;
@@ -450,7 +450,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 const InPlantOptions& options) {
   const double started = cpu_seconds();
   require_setup(setup);
-  if (looks_for_road_delay(setup)) {
+  if (!unmeasured_road(setup) && looks_for_road_delay(setup)) {
     const InPlantSetup found = with_found_road_delay(law, setup, as_recorded, options);
     InPlantReport report = identify_in_plant(law, found, as_recorded, options);
     add_road_delays(setup, found, report);
@@ -458,7 +458,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
     return report;
   }
   const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
-  if (has_unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
+  if (unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
 
   // From more places, where the plant diverges from all of the first ones.
   constexpr int kMoreStarts = 4;

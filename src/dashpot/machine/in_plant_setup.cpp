@@ -154,8 +154,11 @@ void require_setup(const InPlantSetup& setup) {
   for (const PlantInputChannel& input : setup.inputs) {
     inputs.push_back(input.place);
     if (!input.follows.empty()) require_followed(setup, input, where + ", " + input.channel);
-    if (input.road) require_one_damper(setup, "a fit beside a road that nothing measures");
-    if (input.road && plant.struts.front().track)
+    if (input.road && *input.road != *unmeasured_road(setup))
+      throw Error(where + ", roads", "those that nothing measures differ in class or speed",
+                  "one road: the same for each");
+    if (input.road && std::ranges::any_of(
+                          plant.struts, [](const Strut& strut) { return strut.track.has_value(); }))
       throw Error(where, "the damper stands on a ground that nothing measures",
                   "a channel with the ground's height");
     if (input.place.kind == PlantInput::Force && input.place.coordinate >= plant.size())
@@ -182,9 +185,10 @@ std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& foll
   return static_cast<std::size_t>(found - setup.inputs.begin());
 }
 
-bool has_unmeasured_road(const InPlantSetup& setup) {
-  return std::ranges::any_of(setup.inputs,
-                             [](const PlantInputChannel& one) { return one.road.has_value(); });
+const RoadPrior* unmeasured_road(const InPlantSetup& setup) {
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.road) return &*input.road;
+  return nullptr;
 }
 
 }  // namespace dashpot

@@ -33,6 +33,8 @@ struct PlantUnknown {
 struct RoadPrior {
   double roughness = 0;  ///< m^3, G_d(n0); 0: unknown
   double speed = 0;      ///< m/s
+
+  bool operator==(const RoadPrior&) const = default;
 };
 
 /// What an identification found of a sensor that said nothing of its noise. Observers may take it
@@ -106,8 +108,8 @@ void require_no_follower(const InPlantSetup& setup, const std::string& who);
 /// Which input a road follows: the place in the setup of the one whose channel it names; behind
 /// the last where there is none.
 std::size_t followed_by(const InPlantSetup& setup, const PlantInputChannel& follower);
-/// Whether an input is a road that nothing measures.
-bool has_unmeasured_road(const InPlantSetup& setup);
+/// What is known of the roads that nothing measures, which are all alike; null where there is none.
+const RoadPrior* unmeasured_road(const InPlantSetup& setup);
 
 struct InPlantOptions {
   std::vector<ParameterChoice> choices;  ///< of the law, as on the bench

@@ -61,7 +61,8 @@ RecordingNoise::RecordingNoise(const InPlantSetup& setup, const StandIn& stand_i
   std::vector<PlantInputPlace> places;
   for (const PlantInputChannel& input : setup.inputs) places.push_back(input.place);
   const DrivenPlant plant(make_plant(*setup.model, setup.known), places);
-  PlantAtLine at(plant, setup, stand_in);
+  const std::vector<StandIn> stand_ins(dampers_, stand_in);
+  PlantAtLine at(plant, setup, stand_ins);
 
   // At each line of the spectrum: what every sensor shows of each input, then of each force.
   std::vector<Complex> shows(sensors_);

@@ -266,7 +266,7 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
   if (model_info(model, where).kind == ModelKind::Family)
     throw Error(where, "'" + model + "' is a model of many dampers, and a plant holds one",
                 "a law or a network, as tanh_kwok or passive_network; 'dashpot models' lists them");
-  if (has_unmeasured_road(setup))
+  if (unmeasured_road(setup))
     throw Error(where,
                 "'" + model +
                     "' is no law, and laws alone are identified on a road that nothing "

@@ -99,13 +99,12 @@ NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecor
     if (sensor.noise == 0)
       seek([s](ObserverNoise& n) { return &n.sensors[s]; }, rms / kWidest, rms);
   }
-  for (const PlantInputChannel& input : setup.inputs)
-    if (input.road) {
-      noise_.roughness = input.road->roughness > 0 ? input.road->roughness : road_roughness('C');
-      if (input.road->roughness == 0)
-        seek([](ObserverNoise& n) { return &n.roughness; }, road_roughness('A') / 4,
-             road_roughness('H'));
-    }
+  const RoadPrior* road = unmeasured_road(setup);
+  if (!road) return;
+  noise_.roughness = road->roughness > 0 ? road->roughness : road_roughness('C');
+  if (road->roughness == 0)
+    seek([](ObserverNoise& n) { return &n.roughness; }, road_roughness('A') / 4,
+         road_roughness('H'));
 }
 
 using DamperModels = std::vector<std::shared_ptr<const DamperModel>>;
@@ -227,8 +226,9 @@ std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InP
     std::vector<std::vector<DamperInput>> motions;
     for (std::size_t r = 0; r < samples.size(); ++r) {
       const ObservedRecording& told = report.recordings[r];
-      const std::vector<double>&deflection = told.quantities[count + 2 * d].value,
-            &velocity = told.quantities[count + 2 * d + 1].value;
+      const DamperQuantities places = damper_quantities(d, count);
+      const std::vector<double>&deflection = told.quantities[places.deflection].value,
+            &velocity = told.quantities[places.velocity].value;
       const std::size_t first =
           std::min(samples[r].count / 2, static_cast<std::size_t>(kSettled / told.sample_time));
       std::vector<DamperInput>& motion = motions.emplace_back();
@@ -296,7 +296,8 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
     for (std::size_t d = 0; d < dampers; ++d) {
       const PlantObserver::Damper damper = observer.damper_at(
           d, samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), estimate, covariance);
-      add(d, damper.force, damper.deviation * damper.deviation);
+      const DamperQuantities places = damper_quantities(d, dampers);
+      add(places.force, damper.force, damper.deviation * damper.deviation);
 
       // A damper's motion: a row over the plant's coordinates, or over their velocities.
       const double* way = &t.deflection[d * coordinates];
@@ -305,7 +306,7 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
         for (std::size_t i = 0; i < coordinates; ++i)
           for (std::size_t j = 0; j < coordinates; ++j)
             variance += way[i] * way[j] * covariance[(first + i) * all + first + j];
-        add(dampers + 2 * d + (first == 0 ? 0 : 1),
+        add(first == 0 ? places.deflection : places.velocity,
             first == 0 ? damper.deflection : damper.velocity, variance);
       }
     }
@@ -517,12 +518,10 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
     noise.sensors.push_back(sensor.noise);
     scale.offset.push_back(sensor.zero > 0 ? sensor.zero : sensor.noise);
   }
-  for (const PlantInputChannel& input : setup.inputs)
-    if (input.road) {
-      if (input.road->roughness == 0)
-        throw Error("plant, road", "its class is unknown", "class: A to H");
-      noise.roughness = input.road->roughness;
-    }
+  if (const RoadPrior* road = unmeasured_road(setup)) {
+    if (road->roughness == 0) throw Error("plant, road", "its class is unknown", "class: A to H");
+    noise.roughness = road->roughness;
+  }
   return {observer_tables(setup, models, noise, scale, sample_time, std::max(options.steps, 1)),
           models};
 }

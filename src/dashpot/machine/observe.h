@@ -44,9 +44,19 @@ struct ObservedSensor {
 struct ObservedRecording {
   std::string name;
   double sample_time = 0;
-  std::vector<ObservedQuantity> quantities;  ///< the dampers' forces first
+  /// The dampers' forces first, then deflection and velocity of each.
+  std::vector<ObservedQuantity> quantities;
   std::vector<ObservedSensor> sensors;
 };
+
+/// Where force, deflection and velocity of a damper stand among the quantities, with so many
+/// dampers.
+struct DamperQuantities {
+  std::size_t force = 0, deflection = 0, velocity = 0;
+};
+constexpr DamperQuantities damper_quantities(std::size_t damper, std::size_t dampers) {
+  return {damper, dampers + 2 * damper, dampers + 2 * damper + 1};
+}
 
 struct ObserveReport {
   std::vector<std::string> struts;  ///< in which the dampers stand

@@ -325,7 +325,8 @@ ObserverNames observer_names(const InPlantSetup& setup, const std::string& dampe
   // A road that nothing measures is a state, all other inputs are channels; then the sensors.
   for (const PlantInputChannel& input : in_order(setup)) {
     if (input.road) {
-      names.states.emplace_back("road");
+      names.states.push_back(input.place.tyre ? plant.tyres[*input.place.tyre].name + "_road"
+                                              : "road");
       names.state_units.emplace_back("m");
       continue;
     }

@@ -1,6 +1,7 @@
 #include "dashpot/machine/plant_at_line.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace dashpot {
@@ -61,19 +62,28 @@ std::optional<StandIn> stand_in_of(std::span<const DamperInput> motion,
 }
 
 PlantAtLine::PlantAtLine(const DrivenPlant& plant, const InPlantSetup& setup,
-                         const StandIn& stand_in)
-    : plant_(plant), setup_(setup), stand_in_(stand_in), late_(setup.sensors.size()) {}
+                         std::span<const StandIn> stand_ins)
+    : plant_(plant),
+      setup_(setup),
+      stand_ins_(stand_ins),
+      admittance_(stand_ins.size()),
+      late_(setup.sensors.size()) {
+  assert(stand_ins.size() == plant.dampers().size());
+}
 
 void PlantAtLine::move_to(double w) {
   const std::size_t n = plant_.size();
   w_ = w;
-  admittance_ = stand_in_.stiffness + iw() * stand_in_.damping;
+  for (std::size_t d = 0; d < stand_ins_.size(); ++d)
+    admittance_[d] = stand_ins_[d].stiffness + iw() * stand_ins_[d].damping;
   matrix_.resize(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < n; ++k) {
       matrix_[i * n + k] = plant_.stiffness()[i * n + k] + iw() * plant_.damping()[i * n + k];
-      for (const DamperPlace& damper : plant_.dampers())
-        matrix_[i * n + k] += damper.by_force[i] * admittance_ * damper.row[k];
+      for (std::size_t d = 0; d < admittance_.size(); ++d) {
+        const DamperPlace& damper = plant_.dampers()[d];
+        matrix_[i * n + k] += damper.by_force[i] * admittance_[d] * damper.row[k];
+      }
     }
     matrix_[i * n + i] -= w * w;
   }
@@ -103,8 +113,10 @@ void PlantAtLine::of_input(std::size_t u, std::vector<Complex>& shows) {
   respond(
       [&](std::size_t k) {
         Complex sum = plant_.by_value()[u][k] + iw() * plant_.by_rate()[u][k];
-        for (const DamperPlace& damper : plant_.dampers())
-          sum += damper.by_force[k] * admittance_ * damper.on_ground[u];
+        for (std::size_t d = 0; d < admittance_.size(); ++d) {
+          const DamperPlace& damper = plant_.dampers()[d];
+          sum += damper.by_force[k] * admittance_[d] * damper.on_ground[u];
+        }
         return sum;
       },
       u, kNone, shows);
@@ -137,7 +149,7 @@ Complex PlantAtLine::seen(const PlantSensorPlace& place, std::size_t input,
     case PlantQuantity::DeflectionVelocity:
       return iw() * way();
     case PlantQuantity::DamperForce:
-      return force + admittance_ * way();
+      return force + admittance_[place.strut] * way();
   }
   return 0;
 }

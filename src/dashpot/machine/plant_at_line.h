@@ -23,7 +23,9 @@ std::optional<StandIn> stand_in_of(std::span<const DamperInput> motion,
 /// that it is made from must outlive it; the setup's delays hold.
 class PlantAtLine {
  public:
-  PlantAtLine(const DrivenPlant& plant, const InPlantSetup& setup, const StandIn& stand_in);
+  /// stand_ins: of each damper.
+  PlantAtLine(const DrivenPlant& plant, const InPlantSetup& setup,
+              std::span<const StandIn> stand_ins);
 
   /// w: rad/s.
   void move_to(double w);
@@ -46,10 +48,9 @@ class PlantAtLine {
 
   const DrivenPlant& plant_;
   const InPlantSetup& setup_;
-  const StandIn& stand_in_;
+  std::span<const StandIn> stand_ins_;
   double w_ = 0;
-  std::complex<double> admittance_;
-  std::vector<std::complex<double>> matrix_, inverse_, late_, q_;
+  std::vector<std::complex<double>> admittance_, matrix_, inverse_, late_, q_;
 };
 
 /// Adds noise of this density, which the sensors show so, to the lower triangle of their

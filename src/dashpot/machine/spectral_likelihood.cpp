@@ -168,10 +168,10 @@ void SpectralLikelihood::seek_noise(double force) {
       seek("noise of " + sensor.channel, unit_of(sensor.place.quantity), place,
            first_.sensors[s] / kWidestBand, first_.sensors[s] * kWidestBand);
   }
-  const auto roughness = [](ObserverNoise& n) { return &n.roughness; };
-  for (const PlantInputChannel& input : setup_->inputs)
-    if (input.road && input.road->roughness == 0)
-      seek("roughness of the road", "m^3", roughness, road_roughness('A') / 4, road_roughness('H'));
+  if (unmeasured_road(*setup_)->roughness == 0)
+    seek(
+        "roughness of the road", "m^3", [](ObserverNoise& n) { return &n.roughness; },
+        road_roughness('A') / 4, road_roughness('H'));
 }
 
 SpectralLikelihood::Ride SpectralLikelihood::ride_of(const RiddenRecording& ridden) const {
@@ -180,7 +180,7 @@ SpectralLikelihood::Ride SpectralLikelihood::ride_of(const RiddenRecording& ridd
   ride.duration = static_cast<double>(ride.samples) * sample_time_;
   ride.first = static_cast<std::size_t>(std::ceil(std::max(kLowest * ride.duration, kFewestWaves)));
   ride.end = static_cast<std::size_t>(highest_ * ride.duration);
-  const auto [low, high] = std::ranges::minmax(ridden.motion, {}, &DamperInput::current);
+  const auto [low, high] = std::ranges::minmax(ridden.motions.front(), {}, &DamperInput::current);
   ride.steady = low.current == high.current;
   for (const PlantSensor& sensor : setup_->sensors)
     ride.shown.push_back(half_spectrum(
@@ -237,27 +237,33 @@ InPlantSetup SpectralLikelihood::setup_at(std::span<const double> x) const {
 
 SpectralLikelihood::Force SpectralLikelihood::force_of(std::span<const double> x,
                                                        std::size_t ride) const {
-  const std::span<const DamperInput> motion =
-      std::span((*rides_)[ride].motion).first(prepared_[ride].samples);
+  const auto& motions = (*rides_)[ride].motions;
   LawModel model = damper(x);
   if (prepared_[ride].steady) {  // constant parameters are quicker
     std::vector<double> parameters(model.law().params.size());
-    model.parameters_at(motion.front().current, parameters.data());
+    model.parameters_at(motions.front().front().current, parameters.data());
     model = LawModel::constant(model.law(), parameters);
   }
-  std::vector<double> state(model.state_size()), force(motion.size());
-  model.rest(motion.front(), state);
-  if (model.run(motion, {.step = sample_time_}, state, {.force = force.data()}) < force.size())
-    return {};
-
-  const auto stand_in = stand_in_of(motion, force);
-  if (!stand_in) return {};
-  Force found{.stand_in = *stand_in};
-  for (std::size_t k = 0; k < force.size(); ++k)
-    force[k] -= found.stand_in.stiffness * motion[k].displacement +
-                found.stand_in.damping * motion[k].velocity;
-  found.rest = half_spectrum(force);
+  Force found;
+  for (const std::vector<DamperInput>& motion : motions)
+    if (!add_force(model, std::span(motion).first(prepared_[ride].samples), found)) return {};
   return found;
+}
+
+bool SpectralLikelihood::add_force(const LawModel& model, std::span<const DamperInput> motion,
+                                   Force& force) const {
+  std::vector<double> state(model.state_size()), newton(motion.size());
+  model.rest(motion.front(), state);
+  if (model.run(motion, {.step = sample_time_}, state, {.force = newton.data()}) < newton.size())
+    return false;
+  const auto stand_in = stand_in_of(motion, newton);
+  if (!stand_in) return false;
+  for (std::size_t k = 0; k < newton.size(); ++k)
+    newton[k] -=
+        stand_in->stiffness * motion[k].displacement + stand_in->damping * motion[k].velocity;
+  force.stand_ins.push_back(*stand_in);
+  force.rests.push_back(half_spectrum(newton));
+  return true;
 }
 
 bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, const Force& force,
@@ -274,7 +280,7 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
   spectra.covariance.assign(lines * m * m, 0);
   std::vector<Complex> columns(lines * m * ends), whitened(m * ends), shows(m), factor, shown;
   EndTerms terms(ends);
-  PlantAtLine at(plant, setup, force.stand_in);
+  PlantAtLine at(plant, setup, force.stand_ins);
   const double scale = sample_time_ / std::sqrt(ride.duration);
   for (std::size_t l = 0; l < lines; ++l) {
     const std::size_t line = ride.first + l;
@@ -283,11 +289,15 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
     Complex* column = &columns[l * m * ends];
     at.move_to(kTurn * static_cast<double>(line) / ride.duration);
 
-    // The force of the law, with its errors, and the sensors' noise.
-    at.of_force(0, shows);
-    add_noise(shows, error_density(uncertain, at.w()), covariance);
+    // What the sensors show without the law's forces, whose errors are left, and their own noise.
+    for (std::size_t s = 0; s < m; ++s) beyond[s] = ride.shown[s][line];
+    for (std::size_t d = 0; d < force.rests.size(); ++d) {
+      at.of_force(d, shows);
+      add_noise(shows, error_density(uncertain, at.w()), covariance);
+      for (std::size_t s = 0; s < m; ++s) beyond[s] -= shows[s] * force.rests[d][line];
+    }
     for (std::size_t s = 0; s < m; ++s) {
-      beyond[s] = scale * (ride.shown[s][line] - shows[s] * force.rest[line]);
+      beyond[s] *= scale;
       covariance[s * m + s] += sample_time_ * uncertain.sensors[s] * uncertain.sensors[s];
     }
 
@@ -379,7 +389,7 @@ void whiten(const SpectralLikelihood& likelihood, std::span<const double> x, std
   const std::size_t m = likelihood.sensors();
   at.value = INFINITY;
   at.force = likelihood.force_of(x, ride);
-  if (at.force.rest.empty() || !likelihood.evaluate(x, ride, at.force, at.spectra)) return;
+  if (at.force.rests.empty() || !likelihood.evaluate(x, ride, at.force, at.spectra)) return;
   at.factors = at.spectra.covariance;
   at.residual = at.spectra.beyond;
   double sum = 0;
@@ -441,7 +451,7 @@ std::vector<double> column_rows(const SpectralLikelihood& likelihood, std::span<
     if (moved[k] < likelihood.lower()[k] || moved[k] > likelihood.upper()[k]) continue;
     SpectralLikelihood::Force force;
     if (likelihood.is_of_law(k)) force = likelihood.force_of(moved, ride);
-    if (likelihood.is_of_law(k) && force.rest.empty()) continue;
+    if (likelihood.is_of_law(k) && force.rests.empty()) continue;
     if (!likelihood.evaluate(moved, ride, likelihood.is_of_law(k) ? force : at.force, beside))
       continue;
     for (std::size_t l = 0; l < lines; ++l) {
@@ -504,7 +514,6 @@ double value_at(const SpectralLikelihood& likelihood, std::span<const double> x,
 
 LikelihoodSlopes slopes_of(const SpectralLikelihood& likelihood, std::span<const double> x,
                            const std::vector<Whitened>& at, double value, int threads) {
-  constexpr std::size_t kLines = 20;  // of a block
   const std::size_t n = likelihood.size(), rides = likelihood.rides(), m = likelihood.sensors();
   LikelihoodSlopes slopes{.finite = std::isfinite(value), .value = value};
   if (!slopes.finite) return slopes;
@@ -518,8 +527,15 @@ LikelihoodSlopes slopes_of(const SpectralLikelihood& likelihood, std::span<const
   for (const auto& ride : columns)
     for (const std::vector<double>& column : ride) slopes.finite &= !column.empty();
   if (!slopes.finite) return slopes;
+
+  // Blocks of lines as long as leave enough of them.
+  constexpr std::size_t kMostLines = 20;
+  std::size_t lines = 0;
+  for (const Whitened& one : at) lines += one.residual.size() / m;
+  const std::size_t block =
+      std::clamp<std::size_t>(lines / ((kBlocksPerUnknown + 1) * n), 1, kMostLines);
   for (std::size_t r = 0; r < rides; ++r)
-    add_ride(residual_rows(at[r], m), columns[r], kLines * rows_per_line(m), slopes);
+    add_ride(residual_rows(at[r], m), columns[r], block * rows_per_line(m), slopes);
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t i = 0; i < k; ++i)
       slopes.information[i * n + k] = slopes.information[k * n + i];

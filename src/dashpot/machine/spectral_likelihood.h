@@ -16,24 +16,24 @@
 
 namespace dashpot {
 
-/// A recording of a plant on a road that nothing measures, with the damper's motion as sensors tell
-/// it (extension, its rate, the drive) at each sample.
+/// A recording of a plant on a road that nothing measures, with the dampers' motions as sensors
+/// tell them (extension, its rate, the drive) at each sample.
 struct RiddenRecording {
   const PlantRecording* recording = nullptr;
-  std::size_t samples = 0;  ///< that are fitted, from the first on
-  std::vector<DamperInput> motion;
+  std::size_t samples = 0;                        ///< that are fitted, from the first on
+  std::vector<std::vector<DamperInput>> motions;  ///< per damper
 };
 
 /// How likely recordings are, as a function of all unknowns of plant, damper and noise, at the
-/// frequencies at which the road's prior holds. The law runs along the damper's motion; with its
-/// force is a spring and a dashpot that stand for it best (least squares), which are made part of
-/// the plant, and a remainder, which is an input; so that at each frequency what the sensors show
-/// is
+/// frequencies at which the road's prior holds. The law runs along each damper's motion; its force
+/// is a spring and a dashpot that stand for it best (least squares), which are made part of the
+/// plant, and a remainder, which is an input; so that at each frequency what the sensors show is
 ///
-///   Y = G_F (F - k d - c v) + G_w W + end terms + N,
+///   Y = sum of G_F (F - k d - c v) + sum of G_w W + end terms + N,
 ///
-/// normal, with the spectra of road, sensor noise and the law's own error (P. Whittle 1953). (With
-/// all of the force as an input it would count as if it did not follow from the road.) The
+/// normal, with the spectra of the road under each tyre, of sensor noise and of the law's own error
+/// in each damper, none of which knows another (P. Whittle 1953). (With all of the force as an
+/// input it would count as if it did not follow from the road.) The
 /// end terms, polynomials in i w over the plant's denominator (Pintelon and Schoukens, System
 /// Identification, 2012, chapter 6), stand for the states at both ends; they are eliminated.
 /// Delays are exact.
@@ -57,11 +57,11 @@ class SpectralLikelihood final : public InPlantUnknowns {
     std::vector<std::complex<double>> covariance;  ///< lines x sensors x sensors
   };
   using Lines = std::vector<std::complex<double>>;
-  /// The law's force along the motion: the spring and the dashpot that stand for it best, and the
-  /// lines of what is left.
+  /// The law's force along the motion of each damper: the spring and the dashpot that stand for it
+  /// best, and the lines of what is left.
   struct Force {
-    StandIn stand_in;
-    Lines rest;  ///< empty where the law diverges
+    std::vector<StandIn> stand_ins;
+    std::vector<Lines> rests;  ///< empty where the law diverges
   };
   Force force_of(std::span<const double> x, std::size_t ride) const;
   /// False where a number is not finite.
@@ -93,6 +93,8 @@ class SpectralLikelihood final : public InPlantUnknowns {
     std::string name, unit;
     std::function<double*(ObserverNoise&)> place;
   };
+  /// What the law does along one motion; false where it diverges.
+  bool add_force(const LawModel& model, std::span<const DamperInput> motion, Force& force) const;
   struct Ride {
     std::size_t samples = 0;  ///< without the last few, so that their count has small factors
     double duration = 0;      ///< s
@@ -123,10 +125,14 @@ class SpectralLikelihood final : public InPlantUnknowns {
 /// the expected information (R. A. Fisher), J'r the gradient.
 struct LikelihoodSlopes {
   bool finite = false;
-  double value = 0;                               ///< -log L
-  std::vector<double> gradient, information;      ///< n; n x n
-  std::vector<std::vector<double>> block_scores;  ///< n each: sums of r J over some frequencies
+  double value = 0;                           ///< -log L
+  std::vector<double> gradient, information;  ///< n; n x n
+  /// n each: sums of r J over up to 20 frequencies, or so few that there are enough blocks.
+  std::vector<std::vector<double>> block_scores;
 };
+
+/// So many blocks for each unknown say how the scores scatter.
+inline constexpr std::size_t kBlocksPerUnknown = 3;
 
 struct MostLikely {
   bool converged = false;

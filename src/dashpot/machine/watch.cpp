@@ -130,6 +130,8 @@ std::vector<std::string> hardly_apart(const WatchedPlant& watched) {
 
 void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
   require_no_follower(setup, "'watch'");
+  if (unmeasured_road(setup))
+    require_one_damper(setup, "'watch' beside a road that nothing measures");
 
   // What is followed must not say one thing twice, and the plant must be known but for its numbers.
   const auto follows = [&](const char* name) {

@@ -39,6 +39,15 @@ bool knows_a_force(const InPlantSetup& setup) {
   });
 }
 
+/// Whether roads that nothing measures lie side by side.
+bool has_unmeasured_tracks(const InPlantSetup& setup) {
+  const Plant plant = make_plant(*setup.model, setup.known);
+  bool met[2] = {};
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.road && input.place.tyre) met[plant.tyres[*input.place.tyre].track] = true;
+  return met[0] && met[1];
+}
+
 void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings) {
   const std::string where = "plant, sensors";
   if (setup.sensors.size() < 2)
@@ -46,6 +55,11 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
                 "there is one, and nothing measures the road: what one sensor shows may come of "
                 "the road or of the damper",
                 "a second sensor: accelerations of body and wheel, the deflection");
+  if (has_unmeasured_tracks(setup))
+    throw Error("plant, inputs",
+                "nothing measures the roads under left and right, which are alike in part: a fit "
+                "that does not know in which makes the car too heavy",
+                "a channel with each road's height, or a half_car");
   if (!knows_a_force(setup))
     throw Error("plant, parameters",
                 "no mass, stiffness or force is known: motions alone tell only their ratios",
@@ -53,6 +67,11 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
   if (std::ranges::all_of(setup.sensors, &PlantSensor::finds_delay))
     throw Error(where, "all delays are unknown, and nothing that is measured moves the plant",
                 "state the delay of one sensor: the others are found beside it");
+  for (const PlantInputChannel& input : setup.inputs)
+    if (input.finds_later)
+      throw Error("plant, " + input.channel,
+                  "is to be found, and beside a road that nothing measures it is not looked for",
+                  "the delay itself, without 'about'");
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
 
   constexpr std::size_t kFewest = 500;
@@ -107,20 +126,8 @@ Domain domain_of(const InPlantSetup& setup, const std::vector<Record>& records) 
   return domain;
 }
 
-/// The damper's motion as a filter and its smoother see it.
-std::vector<DamperInput> motion_of(const InPlantSetup& setup, const PlantRecording& recording,
-                                   const ObservedRecording& observed) {
-  std::vector<DamperInput> motion;
-  for (std::size_t k = 0; k < recording.samples; ++k)
-    motion.push_back(
-        {observed.quantities[1].value[k], observed.quantities[2].value[k],
-         setup.drive.empty() ? setup.level : recording.channel(setup.drive).samples[k]});
-  return motion;
-}
-
 /// The inverse of the information between the scores' own products, where there are enough of them.
 Covariance spread_of(const SpectralLikelihood& likelihood, const MostLikely& found) {
-  constexpr std::size_t kBlocksPerUnknown = 3;
   const LikelihoodSlopes& slopes = found.slopes;
   const std::size_t n = slopes.gradient.size();
 
@@ -192,12 +199,16 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
     InPlantTrace trace{.recording = told.name,
                        .sample_time = told.sample_time,
                        .training = task.fitted[r].samples};
-    trace.dampers = {{.strut = make_plant(*found.model, found.known).struts.front().name,
-                      .deflection = told.quantities[1].value,
-                      .velocity = told.quantities[2].value,
-                      .force = told.quantities[0].value}};
-    for (const DamperInput& input : motion_of(found, task.fitted[r], told))
-      trace.current.push_back(input.current);
+    const std::size_t dampers = seen.struts.size();
+    for (std::size_t d = 0; d < dampers; ++d) {
+      const auto [force, deflection, velocity] = damper_quantities(d, dampers);
+      trace.dampers.push_back({.strut = seen.struts[d],
+                               .deflection = told.quantities[deflection].value,
+                               .velocity = told.quantities[velocity].value,
+                               .force = told.quantities[force].value});
+    }
+    const auto motions = observed_motions(found, task.fitted[r], told);
+    for (const DamperInput& input : motions.front()) trace.current.push_back(input.current);
     report.traces.push_back(std::move(trace));
   }
 }
@@ -217,7 +228,7 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
   std::vector<RiddenRecording> rides;
   for (std::size_t r = 0; r < task.fitted.size(); ++r)
     rides.push_back({&task.fitted[r], task.fitted[r].samples,
-                     motion_of(task.setup, task.fitted[r], observed.recordings[r])});
+                     observed_motions(task.setup, task.fitted[r], observed.recordings[r])});
   const SpectralLikelihood likelihood(task.setup, rides, unknowns, point.plant, point.noise, force);
   const std::vector<double> start = likelihood.start(point.plant, point.law);
 
@@ -284,8 +295,8 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings)};
   task.fitted = fitted_parts(setup, recordings);
 
-  // The damper's motion and force without the law, and the law as a bench would find it.
-  options.monitor.report("motion and force of the damper, without the law", 0);
+  // The dampers' motion and force without the law, and the law as a bench would find it.
+  options.monitor.report("motion and force of the dampers, without the law", 0);
   ObserveReport observed = observe_without_law(setup, task.plant, task.fitted, options);
   const std::vector<Record> records = as_bench_records(setup, task.fitted, observed);
   options.monitor.report("the law, as on a bench", 0.2);
