@@ -159,6 +159,25 @@ files:
   CHECK(format_leave_out(*dataset.leave_out) == "fraction=0.25");
 }
 
+TEST_CASE("a stated column may be named without the unit in brackets behind it") {
+  const auto loaded = [](const std::string& header) {
+    const TemporaryFolder folder;
+    folder.write("a.csv", header + "\n0,0,1\n0.1,2,3\n0.2,1,2\n");
+    folder.write("dataset.yaml",
+                 "files:\n  - match: a.csv\n    time: {column: T}\n    channels:\n"
+                 "      displacement: {column: Way}\n      force: {column: Cell (upper)}\n");
+    return load(folder.path()).records.front();
+  };
+  const Record record = loaded("T [ms],Way (mm),Cell (upper) [kN]");
+  CHECK_CLOSE(record.time[1], 1e-4, 1e-12, 0);
+  CHECK_CLOSE(record.channel("displacement").samples[1], 2e-3, 1e-12, 0);
+  CHECK_CLOSE(record.channel("force").samples[1], 3000, 1e-12, 0);
+
+  // The whole name goes before; one that two columns have is none.
+  CHECK(has(message_of([&] { loaded("T [ms],Way (mm),Way [in],Cell (upper) [kN]"); }),
+            "has no column 'Way' for displacement"));
+}
+
 TEST_CASE("mistakes in a dataset file are refused at their line") {
   const auto message = [](const std::string& line) {
     const TemporaryFolder folder;

@@ -17,19 +17,32 @@ std::string column_name(const RawTable& table, std::size_t column) {
   return name.empty() ? "column " + std::to_string(column + 1) : name;
 }
 
-/// Index of the column that a statement means, by number or by name. Throws Error when it is
-/// missing.
+/// A column's name without a unit in brackets behind it.
+std::string_view without_unit(std::string_view name) {
+  if (!name.ends_with(']') && !name.ends_with(')')) return name;
+  const std::size_t bracket = name.rfind(name.back() == ']' ? '[' : '(');
+  const std::size_t end = name.substr(0, bracket).find_last_not_of(' ');
+  return bracket == std::string_view::npos || end == std::string_view::npos
+             ? name
+             : name.substr(0, end + 1);
+}
+
+/// Index of the column that a statement means, by number or by name, where one alone has it also
+/// without its unit. Throws Error when it is missing.
 std::size_t find_column(const RawTable& table, const ChannelStatement& statement) {
   if (statement.index > table.columns.size())
     throw Error(table.file, "has no column " + std::to_string(statement.index),
                 "it has " + table.column_list());
   if (statement.index > 0) return statement.index - 1;
 
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < table.columns.size(); ++k) {
-    if (table.columns[k].name == statement.column) return k;
-    names.push_back(table.columns[k].name);
-  }
+  const auto called = [&](const RawColumn& column) { return column.name == statement.column; };
+  const auto called_so = [&](const RawColumn& column) {
+    return without_unit(column.name) == statement.column;
+  };
+  auto found = std::ranges::find_if(table.columns, called);
+  if (found == table.columns.end() && std::ranges::count_if(table.columns, called_so) == 1)
+    found = std::ranges::find_if(table.columns, called_so);
+  if (found != table.columns.end()) return static_cast<std::size_t>(found - table.columns.begin());
   if (!table.named())
     throw Error(table.file, "no line names its columns, so there is no '" + statement.column + "'",
                 "state the column's number in the dataset file, as in 'column: 2'");
