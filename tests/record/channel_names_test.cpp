@@ -50,6 +50,20 @@ TEST_CASE("columns are recognised by their names") {
       {"load 10 kN cell", "", "force", ""},
       {"...", "", "", ""},
       {"10kN load", "", "force", ""},
+      {"Force 2 kN", "", "force", "kN"},  // the second of several
+      {"temperature 10 degC", "", "temperature", "degC"},
+      // Quotients anywhere in a name, with exponents, points and words.
+      {"velocity mm.s-1", "", "velocity", "mm.s-1"},
+      {"vel_mm.s-1", "", "velocity", "mm.s-1"},
+      {"v [mm s-1]", "", "velocity", "mm s-1"},
+      {"velocity (mm per s)", "", "velocity", "mm per s"},
+      {"velocity_mm_per_s", "", "velocity", "mm/s"},
+      {"velocity mm/s filt", "", "velocity", "mm/s"},
+      {"vel in mm/s, filtered", "", "velocity", "mm/s"},
+      {"mm/s velocity", "", "velocity", "mm/s"},
+      {"I [Amps]", "", "current", "Amps"},
+      {"Current (milliamps)", "", "current", "milliamps"},
+      {"Time (hh:mm:ss)", "", "time", ""},
       {"force.1", "", "force", ""},
   };
   for (const Known& k : known) {
@@ -76,9 +90,27 @@ TEST_CASE("two units for one channel") {
 }
 
 TEST_CASE("units that nobody knows are not taken as SI") {
-  for (const char* column : {"Force_pounds", "Force in pounds", "Force KiloNewton", "velocity_mmps",
-                             "Displacement microns", "displacement [\"]"}) {
+  for (const char* column :
+       {"Force_pounds", "Force in pounds", "Force KiloNewton", "velocity_mmps",
+        "Displacement microns", "displacement [\"]", "displacement [0.1 mm]", "vel_mms-1"}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").problem.starts_with("the unknown unit '"));
   }
+}
+
+TEST_CASE("factors in names, and ranges that may be units, are not taken as nothing") {
+  for (const char* column : {"Force x1000 N", "Force N x10", "Force (x1000) N", "Force/1000 [N]",
+                             "Force [N] x 1000", "Force \u00d7100 [N]", "Force_x0.1_N"}) {
+    CAPTURE(std::string(column));
+    CHECK(contains(recognise_channel(column, "").problem, "a factor '"));
+  }
+  CHECK(contains(recognise_channel("Force x1000", "N").problem, "a factor 'x1000'"));
+  for (const char* column : {"Load cell 10 kN", "Displacement 50 mm"}) {
+    CAPTURE(std::string(column));
+    CHECK(contains(recognise_channel(column, "").problem, "the range of the sensor or the unit"));
+  }
+
+  // Where both are the same, there is nothing to ask; nor of the first of several.
+  CHECK(recognise_channel("Load cell 500 N", "").problem.empty());
+  CHECK(recognise_channel("force x1 [N]", "").problem.empty());
 }
