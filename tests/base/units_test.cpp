@@ -39,6 +39,7 @@ TEST_CASE("units in all their spellings") {
   check_factor("mm per s", 1e-3, {0, 1, -1});
   check_factor("Amps", 1, {0, 0, 0, 1});
   check_factor("milliamps", 1e-3, {0, 0, 0, 1});
+  check_factor("Inches", 0.0254, {0, 1});
   check_factor("mA", 1e-3, {0, 0, 0, 1});
   check_factor("in", 0.0254, {0, 1});
   check_factor("min", 60, {0, 0, 1});

@@ -76,12 +76,35 @@ TEST_CASE("columns are recognised by their names") {
 }
 
 TEST_CASE("what may mean two things, or is no measurement, is not used") {
-  for (const char* column : {"A", "V", "T", "Y", "fs", "Sample Number", "target force",
-                             "displacement setpoint [mm]", "x_F(2)", "force [mm]", ""}) {
+  for (const char* column :
+       {"A", "V", "T", "Y", "fs", "Sample Number", "target force", "displacement setpoint [mm]",
+        "Weg Soll [mm]", "Peak force [N]", "x_F(2)", "force [mm]", ""}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").channel.empty());
   }
   CHECK(recognise_channel("V", "").problem.find("velocity or voltage") != std::string::npos);
+}
+
+TEST_CASE("of two channels in a name the unit decides, and nothing without one") {
+  const std::pair<const char*, const char*> known[] = {
+      {"Extension force [N]", "force"},
+      {"Current position [mm]", "displacement"},
+      {"Load cell temperature, degC", "temperature"},
+      {"Force sensor voltage [V]", "voltage"},
+      {"velocidad desplazamiento [mm/s]", "velocity"},
+      {"Position(Linear:Position) (mm)", "displacement"}};
+  for (const auto& [column, channel] : known) {
+    CAPTURE(std::string(column));
+    CHECK(recognise_channel(column, "").channel == channel);
+  }
+  CHECK(recognise_channel("load displacement", "mm").channel == "displacement");
+  for (const char* column : {"load displacement", "Current position", "Force sensor voltage"}) {
+    CAPTURE(std::string(column));
+    CHECK(recognise_channel(column, "").channel.empty());
+    CHECK(contains(recognise_channel(column, "").problem, "' may be "));
+  }
+  CHECK(recognise_channel("Extension force [A]", "").problem ==
+        "unit 'A' does not fit displacement");
 }
 
 TEST_CASE("two units for one channel") {
@@ -100,14 +123,15 @@ TEST_CASE("units that nobody knows are not taken as SI") {
 
 TEST_CASE("factors in names, and ranges that may be units, are not taken as nothing") {
   for (const char* column : {"Force x1000 N", "Force N x10", "Force (x1000) N", "Force/1000 [N]",
-                             "Force [N] x 1000", "Force \u00d7100 [N]", "Force_x0.1_N"}) {
+                             "Force [N] x 1000", "Force \u00d7100 [N]", "Force_x0.1_N",
+                             "Force [N] \u00b7 1000", "Weg in 1/10 mm", "Weg 1/100mm"}) {
     CAPTURE(std::string(column));
     CHECK(contains(recognise_channel(column, "").problem, "a factor '"));
   }
   CHECK(contains(recognise_channel("Force x1000", "N").problem, "a factor 'x1000'"));
-  for (const char* column : {"Load cell 10 kN", "Displacement 50 mm"}) {
+  for (const char* column : {"Load cell 10 kN", "Displacement 50 mm", "Displacement 0.1 mm"}) {
     CAPTURE(std::string(column));
-    CHECK(contains(recognise_channel(column, "").problem, "the range of the sensor or the unit"));
+    CHECK(contains(recognise_channel(column, "").problem, "of the sensor or the unit"));
   }
 
   // Where both are the same, there is nothing to ask; nor of the first of several.

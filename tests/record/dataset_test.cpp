@@ -100,6 +100,8 @@ TEST_CASE("wrong input is refused with its place") {
   const std::string good = "t_s,x_mm,F_N\n0,1,2\n0.1,2,3\n";
   CHECK(has(message_for("a.csv", "t_s,x_mm\n0,1\n0.1,2\n"),
             "no column is force by its name (it has 't_s', 'x_mm')"));
+  CHECK(has(message_for("a.csv", "t_s,x_mm,Peak force [N]\n0,1,2\n0.1,2,3\n"),
+            "'Peak force [N]' not used: 'Peak force' is not a measurement by its name"));
   CHECK(has(message_for("a.csv", good + "0.2,abc,3\n0.3,2,3\n"),
             "a.csv:4: displacement (x_mm) is 'abc', not a finite number"));
   CHECK(has(message_for("a.csv", good + "0.2,2,nan\n0.3,2,3\n"), "a.csv:4: force (F_N) is 'nan'"));

@@ -91,10 +91,13 @@ const Named* find_named(std::string_view name) {
 
   // Words ("Newtons", "VOLTS", "Amps") may be in any case and in the plural; symbols may not.
   std::string word = lower(name);
-  if (word.size() > 3 && word.back() == 's') word.pop_back();
-  if (word.size() < 3) return nullptr;
-  for (const Named& unit : kUnits)
-    if (unit.name == word) return &unit;
+  for (const bool is_plural : {false, true}) {
+    if (is_plural && (word.size() <= 3 || word.back() != 's')) break;
+    if (is_plural) word.pop_back();
+    if (word.size() < 3) break;
+    for (const Named& unit : kUnits)
+      if (unit.name == word) return &unit;
+  }
   return nullptr;
 }
 

@@ -1,6 +1,7 @@
 #include "dashpot/record/build_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -61,10 +62,15 @@ std::string refusal(const RawTable& table, const ColumnUses& uses, bool as_given
                               : "no line names the columns: state them by number in a "
                                 "dataset file: 'channels: {force: {column: 2, unit: N}}'";
   // Familiar names that were refused tell more than the list of all names.
+  const auto is_told = [](const std::string& why) {
+    return std::ranges::any_of(
+        std::array{"unit", "may be", "not a measurement"},
+        [&](const char* word) { return why.find(word) != std::string::npos; });
+  };
   std::string refused;
   std::size_t told = 0;
   for (const auto& [column, why] : uses.unused)
-    if (why.find("unit") != std::string::npos && told++ < kToldColumns)
+    if (is_told(why) && told++ < kToldColumns)
       refused += ", '" + label(table.columns[column], column) + "' " + why;
   return "no column is " + missing + " by its name (it has " + table.column_list() + refused +
          "); " + how;

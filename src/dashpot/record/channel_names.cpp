@@ -41,7 +41,8 @@ constexpr Ambiguous kAmbiguous[] = {
     {"V", "velocity", "voltage"}, {"A", "acceleration", "current"}, {"T", "time", "temperature"}};
 
 constexpr std::string_view kWishes =
-    "target reference ref setpoint set command cmd commanded desired error min max mean";
+    "target reference ref setpoint set command cmd commanded desired demand demanded error min max "
+    "mean average avg std peak valley amplitude soll sollwert vorgabe consigna deseado desejado";
 
 bool contains_word(std::string_view list, std::string_view word) {
   for (std::size_t at = 0; at < list.size();) {
@@ -77,16 +78,26 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-/// The channel of a name without its unit; "" when unknown.
-std::string channel_of(std::string_view name) {
+/// The channels of a name without its unit: none when unknown, and two where its first word names
+/// one and its last another, "load displacement".
+std::vector<std::string> channels_of(std::string_view name) {
   for (const Names& known : kNames)
-    if (contains_word(known.exact, name)) return std::string(known.channel);
+    if (contains_word(known.exact, name)) return {std::string(known.channel)};
   const std::vector<std::string> words = words_of(name);
-  if (words.empty()) return {};
+  std::vector<std::string> channels;
+  if (words.empty()) return channels;
   for (const std::string& end : {words.front(), words.back()})
     for (const Names& known : kNames)
-      if (contains_word(known.words, end)) return std::string(known.channel);
-  return {};
+      if (contains_word(known.words, end) &&
+          std::ranges::find(channels, known.channel) == channels.end())
+        channels.emplace_back(known.channel);
+  return channels;
+}
+
+/// The first of them; "" when unknown.
+std::string channel_of(std::string_view name) {
+  const std::vector<std::string> channels = channels_of(name);
+  return channels.empty() ? "" : channels.front();
 }
 
 bool is_wish(std::string_view name) {
@@ -159,9 +170,16 @@ NamedChannel resolve(const std::string& name, const std::string& given) {
             false};
   }
 
+  // Of two channels the unit decides.
+  std::vector<std::string> channels = channels_of(name);
+  if (channels.empty()) return {};
+  if (channels.size() > 1 && parsed)
+    std::erase_if(channels, [&](const std::string& one) { return !fits(one, *parsed); });
+  if (channels.size() > 1)
+    return {{}, unit, "'" + name + "' may be " + channels[0] + " or " + channels[1], false};
+
   // Refuse what is no measurement, and units of another dimension.
-  const std::string channel = channel_of(name);
-  if (channel.empty()) return {};
+  const std::string channel = channels.empty() ? known : channels.front();
   if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name", false};
   if (parsed && !fits(channel, *parsed))
     return {{}, unit, "unit '" + unit + "' does not fit " + channel, false};
@@ -227,7 +245,8 @@ bool meant_as_unit(std::string_view text, std::string_view channel) {
       "count "
       "bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r pound "
       "pounds kilogram kilograms newton newtons kilonewton kilonewtons micron microns mms cms mps "
-      "mmps cmps inps";
+      "mmps cmps inps minute minutes hour hours minuten sekunden stunden millisekunden minutos "
+      "segundos horas zoll zentimeter pulgadas polegadas milimetros centimetros metros \" ''";
   const std::vector<std::string> usual = split(std::string(usual_units(channel)), ' ');
   std::string word = lower(text);
   if (const bool is_quotient = word.ends_with("-1"); is_quotient) word.resize(word.size() - 2);
@@ -315,9 +334,9 @@ std::string unit_among_words(std::string_view name, std::string_view channel) {
   return found;
 }
 
-/// "x1000", "*10", "1000x", "/10", or two pieces "x 1000": a factor between what stands in the file
-/// and the unit, which may be there to be multiplied or to be divided by. "x1" is the first of
-/// several channels.
+/// "x1000", "*10", "1000x", "/10", "1/10", or two pieces "x 1000": a factor between what stands in
+/// the file and the unit, which may be there to be multiplied or to be divided by. "x1" is the
+/// first of several channels.
 std::string factor_among(std::string_view name) {
   constexpr std::string_view kMarks = "xX*/";
   constexpr double kFewest = 10;
@@ -326,8 +345,9 @@ std::string factor_among(std::string_view name) {
     return number && std::isfinite(*number) && *number > 0 && (*number >= kFewest || *number < 1);
   };
   std::string spelled(name);
-  for (std::size_t at; (at = spelled.find("\u00d7")) != std::string::npos;)
-    spelled.replace(at, 2, "x");
+  for (const auto& [sign, mark] : {std::pair{"\u00d7", "x"}, {"\u00b7", "*"}})
+    for (std::size_t at; (at = spelled.find(sign)) != std::string::npos;)
+      spelled.replace(at, 2, mark);
 
   const std::vector<std::string> pieces = pieces_of(spelled);
   for (std::size_t k = 1; k < pieces.size(); ++k) {
@@ -336,6 +356,10 @@ std::string factor_among(std::string_view name) {
     if (marked && is_factor(std::string_view(piece).substr(1))) return piece;
     if (marked && piece.size() == 1 && k + 1 < pieces.size() && is_factor(pieces[k + 1]))
       return piece + " " + pieces[k + 1];
+    // "1/10 mm" and "1/10mm".
+    const std::size_t end = piece.find_first_not_of("0123456789", 2);
+    if (piece.starts_with("1/") && is_factor(std::string_view(piece).substr(2, end - 2)))
+      return piece.substr(0, end);
     const bool ends_marked = piece.back() == 'x' || piece.back() == 'X';
     if (ends_marked && is_factor(std::string_view(piece).substr(0, piece.size() - 1))) return piece;
   }
@@ -351,9 +375,9 @@ std::string factor_among(std::string_view name) {
 }
 
 /// "10 kN" at the end of a name: the unit of its numbers, or the range of the sensor; "" where both
-/// mean the same. A smaller number counts channels.
+/// mean the same. A small number counts channels; one below 1 is a resolution.
 std::string range_at_end(std::string_view name, std::string_view channel) {
-  constexpr double kLeast = 5;
+  constexpr double kLeast = 5, kMost = 1;
   const std::vector<std::string> pieces = pieces_of(name);
   const bool has_range = channel != "time" && channel != "temperature";
   if (!has_range || name.find_first_of("[({") != std::string_view::npos || pieces.size() < 3)
@@ -361,7 +385,8 @@ std::string range_at_end(std::string_view name, std::string_view channel) {
   const std::string& unit = pieces.back();
   const auto number = parse_number(pieces[pieces.size() - 2]);
   const auto parsed = parse_unit(unit);
-  if (!number || *number < kLeast || !parsed || parsed->factor == 1) return {};
+  const bool is_count = number && *number >= kMost && *number < kLeast;
+  if (!number || is_count || !parsed || parsed->factor == 1) return {};
   return pieces[pieces.size() - 2] + " " + unit;
 }
 
@@ -372,7 +397,8 @@ std::string doubt_of_size(std::string_view name, std::string_view channel) {
            "' in its name, by which its numbers may have been multiplied, or are to be ('scale' in "
            "a dataset file says which)";
   if (const std::string range = range_at_end(name, channel); !range.empty())
-    return "'" + range + "' in its name, the range of the sensor or the unit of the numbers";
+    return "'" + range +
+           "' in its name, a range or resolution of the sensor or the unit of the numbers";
   return {};
 }
 
