@@ -187,9 +187,23 @@ TEST_CASE("whole numbers in groups of three are no decimals") {
   CHECK(table.notes.front().starts_with("numbers are read with ',' between thousands"));
   CHECK(read_text("t;F\n0;987\n1;1.124\n2;-1.093\n").columns[1].values[1] == 1124);
 
+  // What is no whole number tells nothing of them.
+  for (const std::string none : {"nan", "inf", "1e5"})
+    CHECK(read_text("t;F\n0;" + none + "\n1;1.124\n").columns[1].values[1] == 1.124);
+
   // One number that is no group tells that they are decimals.
   CHECK(read_text("t\tF\n0\t987\n1\t1,124\n2\t1,09\n").columns[1].values[1] == 1.124);
   CHECK(read_text("t;F\n0,005;987\n0,010;1,124\n").columns[1].values[1] == 1.124);
+}
+
+TEST_CASE("numbers in groups of which the first lines do not tell are refused") {
+  std::string text = "t;F\n";
+  for (int k = 0; k < 400; ++k) text += std::to_string(k) + ";1.124\n";
+  CHECK(read_text(text).columns[1].values.back() == 1.124);
+  CHECK(contains(message_of([&] { read_text(text + "400;987\n"); }),
+                 "run.csv:2: '1.124' may be in thousands or have decimals"));
+  // One number with decimals tells, wherever it stands.
+  CHECK(read_text(text + "400;987\n401;0.5\n").columns[1].values.back() == 0.5);
 }
 
 TEST_CASE("an error of a sheet at the start of a row is no comment") {

@@ -152,7 +152,11 @@ std::optional<ClockTime> clock_time(std::string_view text) {
 /// Appends rows to a table, one line at a time.
 class RowAppender {
  public:
-  RowAppender(RawTable& table, const CsvDialect& dialect) : table_(table), dialect_(dialect) {}
+  RowAppender(RawTable& table, const CsvDialect& dialect)
+      : table_(table),
+        dialect_(dialect),
+        is_open_(dialect.is_open),
+        groups_(is_open_ ? table.columns.size() : 0) {}
 
   /// Clock times are counted in s from the first; a column that also holds plain numbers is none.
   void settle_clocks() {
@@ -169,6 +173,18 @@ class RowAppender {
           "'" + column.name + "' holds times of a clock: counted in s from the " +
           "whole second of the first" + (clock.midnights > 0 ? ", on behind midnight" : ""));
     }
+  }
+
+  /// Refuses "1,124" beside "987" in a column where nothing tells whether it is 1.124 or 1124. The
+  /// first lines, where they have both, tell that it is 1124.
+  void settle_groups() const {
+    if (!is_open_) return;
+    for (const Groups& groups : groups_)
+      if (!groups.first.empty() && groups.has_plain)
+        throw Error(table_.at_line(groups.line),
+                    "'" + groups.first +
+                        "' may be in thousands or have decimals, and no number of the file tells",
+                    "write numbers without signs between thousands");
   }
 
   /// Says what stood beside the table and was not read.
@@ -197,6 +213,7 @@ class RowAppender {
     split_cells(text, dialect_.separator, cells_);
     if (is_heading(line)) return;
     require_cell_count(line);
+    if (is_open_) watch_groups(line);
     const std::size_t row = table_.rows();
     if (line != next_line_) table_.lines.emplace_back(row, line);
     next_line_ = line + 1;
@@ -204,6 +221,23 @@ class RowAppender {
   }
 
  private:
+  /// Whole numbers of three digits in a column, and the first with a sign before three digits.
+  struct Groups {
+    std::string first;
+    std::size_t line = 0;
+    bool has_plain = false;
+  };
+
+  void watch_groups(std::size_t line) {
+    for (std::size_t k = 0; k < std::min(cells_.size(), groups_.size()) && is_open_; ++k) {
+      const Grouping grouping = grouping_of(cells_[k], dialect_.decimal);
+      is_open_ = grouping != Grouping::Decimal;
+      groups_[k].has_plain |= grouping == Grouping::Without;
+      if (grouping == Grouping::Group && groups_[k].first.empty())
+        groups_[k].first = cells_[k], groups_[k].line = line;
+    }
+  }
+
   /// Zeros stand where a disk or a logger lost what belongs there; a number before them may be cut.
   /// A row of nothing else is one without numbers.
   void require_whole(std::string_view text, std::size_t line) const {
@@ -323,6 +357,8 @@ class RowAppender {
   std::string first_heading_, other_heading_;
   bool units_may_follow_ = false;
   std::map<std::size_t, Clock> clocks_;  ///< by column
+  bool is_open_;                         ///< no number has told what stands between digits
+  std::vector<Groups> groups_;           ///< by column, while that is so
 };
 
 /// Lines of which those that a quoted line end has divided are one again.
@@ -453,6 +489,7 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
     appender.append(head[k], numbers[k]);
   while (const auto line = source.next()) appender.append(*line, source.line());
   appender.settle_clocks();
+  appender.settle_groups();
   appender.note_beside();
   appender.note_headings();
 

@@ -292,23 +292,10 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
     dialect.names[k] = text_of_cell(cells[k]);
 }
 
-/// What a number tells of the sign that was taken for the decimal one.
-enum class Grouping { Nothing, Without, Group, Decimal };
-
-/// "1,124" is a group, "0,5" and "1,09" are decimals; "987" would have none in either case.
-Grouping grouping_of(std::string_view cell, char decimal) {
-  if (!parse_number(cell, decimal)) return Grouping::Nothing;
-  const std::string_view digits = cell.substr(cell.find_first_not_of("+-"));
-  const bool has_zero = digits.front() == '0';
-  if (digits.find(decimal) == std::string_view::npos)
-    return digits.size() == 3 && !has_zero ? Grouping::Without : Grouping::Nothing;
-  const bool is_group = without_thousands(digits, other_sign(decimal), decimal).has_value();
-  return is_group && !has_zero ? Grouping::Group : Grouping::Decimal;
-}
-
 /// Whether that sign stands between thousands: no number has it for a decimal one, and a column
-/// that has groups has numbers of three digits without one too.
-bool separates_thousands(const std::vector<std::string>& lines, const CsvDialect& dialect) {
+/// that has groups has numbers of three digits without one too. Nothing where no number tells.
+std::optional<bool> separates_thousands(const std::vector<std::string>& lines,
+                                        const CsvDialect& dialect) {
   std::vector<std::pair<bool, bool>> columns;  // whether each has groups, and numbers without
   Cells cells;
   for (std::size_t line = dialect.first_data_line; line < lines.size(); ++line) {
@@ -324,7 +311,8 @@ bool separates_thousands(const std::vector<std::string>& lines, const CsvDialect
       columns[k].second |= grouping == Grouping::Without;
     }
   }
-  return std::ranges::find(columns, std::pair{true, true}) != columns.end();
+  if (std::ranges::find(columns, std::pair{true, true}) != columns.end()) return true;
+  return std::nullopt;
 }
 
 /// "#N/A" at the start of a row of a sheet, which is no comment; English and German.
@@ -338,6 +326,18 @@ bool is_sheet_error(std::string_view line) {
 }
 
 }  // namespace
+
+Grouping grouping_of(std::string_view cell, char decimal) {
+  if (!parse_number(cell, decimal)) return Grouping::Nothing;
+  const std::string_view digits = cell.substr(cell.find_first_not_of("+-"));
+  const bool has_zero = digits.front() == '0';
+  if (digits.find(decimal) == std::string_view::npos) {
+    const bool is_whole = digits.find_first_not_of("0123456789") == std::string_view::npos;
+    return is_whole && digits.size() == 3 && !has_zero ? Grouping::Without : Grouping::Nothing;
+  }
+  const bool is_group = without_thousands(digits, other_sign(decimal), decimal).has_value();
+  return is_group && !has_zero ? Grouping::Group : Grouping::Decimal;
+}
 
 std::size_t count_channel_names(std::span<const std::string_view> cells) {
   return static_cast<std::size_t>(std::ranges::count_if(cells, [](std::string_view cell) {
@@ -430,7 +430,9 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
   if (best.data_lines == 0)
     throw NoTable(file, "no line holds numbers in columns",
                   "give a table: a line of names, then one line per sample");
-  if (separates_thousands(lines, best.dialect)) {
+  const std::optional<bool> groups = separates_thousands(lines, best.dialect);
+  best.dialect.is_open = !groups;
+  if (groups.value_or(false)) {
     best.dialect.thousands = best.dialect.decimal;
     best.dialect.decimal = other_sign(best.dialect.decimal);
   }
@@ -442,7 +444,7 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
     for (const std::string_view cell : cells)
       if (!parse_number(cell, best.dialect.decimal) &&
           number_of_cell(cell, best.dialect.decimal, 0))
-        best.dialect.thousands = other_sign(best.dialect.decimal);
+        best.dialect.thousands = other_sign(best.dialect.decimal), best.dialect.is_open = false;
   }
   read_header(lines, best.columns, best.dialect);
   return best.dialect;

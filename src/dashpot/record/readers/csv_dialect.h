@@ -16,7 +16,14 @@ struct CsvDialect {
   std::vector<std::string> names;   ///< one per column; all "" when no line names them
   std::vector<std::string> units;   ///< from a row of units; "" where there is none
   bool counts_rows = false;         ///< the first column does, and the line of names leaves it out
+  bool is_open = false;  ///< no number tells whether `decimal` stands between thousands instead
 };
+
+/// What a number tells of the sign that was taken for the decimal one.
+enum class Grouping { Nothing, Without, Group, Decimal };
+
+/// "1,124" is a group, "0,5" and "1,09" are decimals; "987" would have none in either case.
+Grouping grouping_of(std::string_view cell, char decimal);
 
 /// Splits one line into cells, trimmed and without their quotes. Cells point into `line` and are
 /// valid as long as it is; `cells` is cleared first, and reused to save allocations. A quoted cell
