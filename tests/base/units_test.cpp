@@ -32,6 +32,14 @@ TEST_CASE("units in all their spellings") {
   check_factor("Newtons", 1, {1, 1, -2});
   check_factor("m/s²", 1, {0, 1, -2});
   check_factor("m/s2", 1, {0, 1, -2});
+  check_factor("mm.s-1", 1e-3, {0, 1, -1});
+  check_factor("mm s-1", 1e-3, {0, 1, -1});
+  check_factor("m\u00b7s\u22121", 1, {0, 1, -1});
+  check_factor("m s\u207b\u00b2", 1, {0, 1, -2});
+  check_factor("mm per s", 1e-3, {0, 1, -1});
+  check_factor("Amps", 1, {0, 0, 0, 1});
+  check_factor("milliamps", 1e-3, {0, 0, 0, 1});
+  check_factor("Inches", 0.0254, {0, 1});
   check_factor("mA", 1e-3, {0, 0, 0, 1});
   check_factor("in", 0.0254, {0, 1});
   check_factor("min", 60, {0, 0, 1});
@@ -50,7 +58,8 @@ TEST_CASE("degrees Celsius have an offset and no powers") {
 }
 
 TEST_CASE("what is no unit is refused") {
-  for (const char* bad : {"", "furlong", "m/", "/s", "m//s", "m^x", "m^99", "N*", "(m", "mmm"})
+  for (const char* bad :
+       {"", "furlong", "m/", "/s", "m//s", "m^x", "m^99", "N*", "(m", "mmm", "mms-1", "T-1"})
     CHECK_MESSAGE(!parse_unit(bad), bad);
   CHECK(message_of([] {
           require_unit("furlong", "run.csv, column x");

@@ -50,6 +50,20 @@ TEST_CASE("columns are recognised by their names") {
       {"load 10 kN cell", "", "force", ""},
       {"...", "", "", ""},
       {"10kN load", "", "force", ""},
+      {"Force 2 kN", "", "force", "kN"},  // the second of several
+      {"temperature 10 degC", "", "temperature", "degC"},
+      // Quotients anywhere in a name, with exponents, points and words.
+      {"velocity mm.s-1", "", "velocity", "mm.s-1"},
+      {"vel_mm.s-1", "", "velocity", "mm.s-1"},
+      {"v [mm s-1]", "", "velocity", "mm s-1"},
+      {"velocity (mm per s)", "", "velocity", "mm per s"},
+      {"velocity_mm_per_s", "", "velocity", "mm/s"},
+      {"velocity mm/s filt", "", "velocity", "mm/s"},
+      {"vel in mm/s, filtered", "", "velocity", "mm/s"},
+      {"mm/s velocity", "", "velocity", "mm/s"},
+      {"I [Amps]", "", "current", "Amps"},
+      {"Current (milliamps)", "", "current", "milliamps"},
+      {"Time (hh:mm:ss)", "", "time", ""},
       {"force.1", "", "force", ""},
   };
   for (const Known& k : known) {
@@ -62,12 +76,35 @@ TEST_CASE("columns are recognised by their names") {
 }
 
 TEST_CASE("what may mean two things, or is no measurement, is not used") {
-  for (const char* column : {"A", "V", "T", "Y", "fs", "Sample Number", "target force",
-                             "displacement setpoint [mm]", "x_F(2)", "force [mm]", ""}) {
+  for (const char* column :
+       {"A", "V", "T", "Y", "fs", "Sample Number", "target force", "displacement setpoint [mm]",
+        "Weg Soll [mm]", "Peak force [N]", "x_F(2)", "force [mm]", ""}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").channel.empty());
   }
   CHECK(recognise_channel("V", "").problem.find("velocity or voltage") != std::string::npos);
+}
+
+TEST_CASE("of two channels in a name the unit decides, and nothing without one") {
+  const std::pair<const char*, const char*> known[] = {
+      {"Extension force [N]", "force"},
+      {"Current position [mm]", "displacement"},
+      {"Load cell temperature, degC", "temperature"},
+      {"Force sensor voltage [V]", "voltage"},
+      {"velocidad desplazamiento [mm/s]", "velocity"},
+      {"Position(Linear:Position) (mm)", "displacement"}};
+  for (const auto& [column, channel] : known) {
+    CAPTURE(std::string(column));
+    CHECK(recognise_channel(column, "").channel == channel);
+  }
+  CHECK(recognise_channel("load displacement", "mm").channel == "displacement");
+  for (const char* column : {"load displacement", "Current position", "Force sensor voltage"}) {
+    CAPTURE(std::string(column));
+    CHECK(recognise_channel(column, "").channel.empty());
+    CHECK(contains(recognise_channel(column, "").problem, "' may be "));
+  }
+  CHECK(recognise_channel("Extension force [A]", "").problem ==
+        "unit 'A' does not fit displacement");
 }
 
 TEST_CASE("two units for one channel") {
@@ -76,9 +113,28 @@ TEST_CASE("two units for one channel") {
 }
 
 TEST_CASE("units that nobody knows are not taken as SI") {
-  for (const char* column : {"Force_pounds", "Force in pounds", "Force KiloNewton", "velocity_mmps",
-                             "Displacement microns", "displacement [\"]"}) {
+  for (const char* column :
+       {"Force_pounds", "Force in pounds", "Force KiloNewton", "velocity_mmps",
+        "Displacement microns", "displacement [\"]", "displacement [0.1 mm]", "vel_mms-1"}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").problem.starts_with("the unknown unit '"));
   }
+}
+
+TEST_CASE("factors in names, and ranges that may be units, are not taken as nothing") {
+  for (const char* column : {"Force x1000 N", "Force N x10", "Force (x1000) N", "Force/1000 [N]",
+                             "Force [N] x 1000", "Force \u00d7100 [N]", "Force_x0.1_N",
+                             "Force [N] \u00b7 1000", "Weg in 1/10 mm", "Weg 1/100mm"}) {
+    CAPTURE(std::string(column));
+    CHECK(contains(recognise_channel(column, "").problem, "a factor '"));
+  }
+  CHECK(contains(recognise_channel("Force x1000", "N").problem, "a factor 'x1000'"));
+  for (const char* column : {"Load cell 10 kN", "Displacement 50 mm", "Displacement 0.1 mm"}) {
+    CAPTURE(std::string(column));
+    CHECK(contains(recognise_channel(column, "").problem, "of the sensor or the unit"));
+  }
+
+  // Where both are the same, there is nothing to ask; nor of the first of several.
+  CHECK(recognise_channel("Load cell 500 N", "").problem.empty());
+  CHECK(recognise_channel("force x1 [N]", "").problem.empty());
 }

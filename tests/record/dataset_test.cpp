@@ -100,6 +100,8 @@ TEST_CASE("wrong input is refused with its place") {
   const std::string good = "t_s,x_mm,F_N\n0,1,2\n0.1,2,3\n";
   CHECK(has(message_for("a.csv", "t_s,x_mm\n0,1\n0.1,2\n"),
             "no column is force by its name (it has 't_s', 'x_mm')"));
+  CHECK(has(message_for("a.csv", "t_s,x_mm,Peak force [N]\n0,1,2\n0.1,2,3\n"),
+            "'Peak force [N]' not used: 'Peak force' is not a measurement by its name"));
   CHECK(has(message_for("a.csv", good + "0.2,abc,3\n0.3,2,3\n"),
             "a.csv:4: displacement (x_mm) is 'abc', not a finite number"));
   CHECK(has(message_for("a.csv", good + "0.2,2,nan\n0.3,2,3\n"), "a.csv:4: force (F_N) is 'nan'"));
@@ -111,6 +113,8 @@ TEST_CASE("wrong input is refused with its place") {
             "two units: 'mm' in its name and 'm' below it"));
   CHECK(has(message_for("a.csv", "t,x_mm,displacement_mm,F\n0,1,1,2\n1,2,3,3\n"),
             "are both displacement"));
+  CHECK(has(message_for("a.csv", "t,x_mm,F_N,F_N\n0,1,1,2\n1,2,3,3\n"),
+            "'channels: {force: {column: 3}}'"));
   CHECK(has(message_for("a.csv", "t,x,F\n0,1,2\n"), "has 1 sample"));
   CHECK(has(message_for("a.csv", "0,1,2\n1,2,3\n"), "state them by number in a dataset file"));
   CHECK(has(message_for("a.csv", ""), "is empty (0 bytes)"));
@@ -176,6 +180,56 @@ TEST_CASE("a stated column may be named without the unit in brackets behind it")
   // The whole name goes before; one that two columns have is none.
   CHECK(has(message_of([&] { loaded("T [ms],Way (mm),Way [in],Cell (upper) [kN]"); }),
             "has no column 'Way' for displacement"));
+}
+
+TEST_CASE("rows that a logger lost: the message says how many, and what it proposes works") {
+  const TemporaryFolder folder;
+  std::string text = "t_s,x_mm,F_N\n";
+  for (int k = 0; k < 300; ++k)
+    if (k != 100 && k != 101 && k != 200)
+      text += format_number(0.01 * k, 6) + "," + format_number(10 * std::sin(0.0628 * k), 6) + "," +
+              format_number(500 * std::cos(0.0628 * k), 6) + "\n";
+  const auto path = folder.write("run_1A.csv", text);
+  CHECK(has(message_of([&] { load(path); }),
+            "not uniform, 3 samples are missing in 2 places by the time stamps, the first behind "
+            "0.99 s; state in a dataset file 'resample: 100'"));
+  folder.write("dataset.yaml", "files:\n  - match: run_1A.csv\n    resample: 100\n");
+  CHECK(load(folder.path()).records.at(0).size() == 300);
+}
+
+TEST_CASE("a stated rate that is not the stamps' is told") {
+  const TemporaryFolder folder;
+  folder.write("run_1A.csv", sine_csv());
+  const auto described = [&](const std::string& rate) {
+    folder.write("dataset.yaml",
+                 "files:\n  - match: run_1A.csv\n    time: {sample_rate: " + rate + "}\n");
+    return describe(load(folder.path()));
+  };
+  CHECK(has(described("1000"),
+            "samples are taken as 0.001 s apart, not as 0.01 s, which the column 't_s' says"));
+  CHECK_FALSE(has(described("100"), "samples are taken as"));
+}
+
+TEST_CASE("a rate beside a time column that says otherwise is told; the column counts") {
+  const TemporaryFolder folder;
+  const auto described = [&](double rate) {
+    std::vector<MatVariable> all{
+        {.name = "t_s", .rows = 1}, {.name = "x_mm", .rows = 1}, {.name = "F_N", .rows = 1}};
+    for (int k = 0; k < 200; ++k) {
+      all[0].values.push_back(0.01 * k);
+      all[1].values.push_back(10 * std::sin(0.0628 * k));
+      all[2].values.push_back(500 * std::cos(0.0628 * k));
+    }
+    for (MatVariable& variable : all) variable.columns = variable.values.size();
+    all.push_back({.name = "fs", .rows = 1, .columns = 1, .values = {rate}});
+    const Dataset dataset = load(folder.write("run_1A.mat", mat_bytes(all)));
+    CHECK(dataset.records.at(0).sample_time == 0.01);
+    return describe(dataset);
+  };
+  CHECK(has(described(1000),
+            "samples are taken as 0.01 s apart, as the column 't_s' says; the "
+            "number 'fs' means 0.001 s"));
+  CHECK_FALSE(has(described(100), "samples are taken as"));
 }
 
 TEST_CASE("mistakes in a dataset file are refused at their line") {

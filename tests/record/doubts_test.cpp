@@ -84,6 +84,94 @@ TEST_CASE("a displacement that dies before the end is told; a motion that ends a
   CHECK(doubts_about(ends).empty());
 }
 
+TEST_CASE("a displacement that stands still anywhere while the force goes on is told") {
+  Record late = sound_record();
+  std::vector<double>& x = samples(late, "displacement");
+  std::fill_n(x.begin(), 1000, x[1000]);
+  CHECK(contains(only_doubt(late),
+                 "the displacement stands still from 0 s to 2 s, the start of the record, while "
+                 "the force goes on: the sensor stuck; 'cut' in a dataset file"));
+
+  // Whole cycles, so that nothing leaps behind them.
+  Record between = sound_record();
+  std::fill_n(samples(between, "displacement").begin() + 500, 1001,
+              samples(between, "displacement")[500]);
+  CHECK(contains(only_doubt(between),
+                 "the displacement stands still from 1 s to 3 s while the "
+                 "force goes on: the sensor stuck"));
+
+  Record dead = sound_record();
+  std::ranges::fill(samples(dead, "displacement"), 0.003);
+  CHECK(contains(only_doubt(dead),
+                 "the displacement stands still throughout while the force goes "
+                 "on: the sensor is dead, or the column another one"));
+
+  // The noise of a force at rest is no motion.
+  Record at_rest = dead;
+  unsigned noise = 1;
+  for (double& value : samples(at_rest, "force")) {
+    noise = noise * 1664525u + 1013904223u;
+    value = 4e-9 * static_cast<double>(noise);
+  }
+  CHECK(doubts_about(at_rest).empty());
+}
+
+TEST_CASE("a velocity that sticks while the displacement goes on is told; a steady one is not") {
+  Record record = sound_record();
+  Channel velocity{"velocity", "m/s"};
+  for (const double t : record.time)
+    velocity.samples.push_back(0.04 * std::numbers::pi * std::cos(2 * std::numbers::pi * t));
+  record.channels.push_back(velocity);
+  std::fill_n(samples(record, "velocity").begin() + 625, 200, 0);
+  CHECK(contains(only_doubt(record),
+                 "the velocity stands at 0 m/s from 1.25 s to 1.648 s while "
+                 "the displacement goes"));
+
+  // A ramp to and fro, and the friction of it.
+  Record ramp = record;
+  for (std::size_t k = 0; k < ramp.size(); ++k) {
+    const double phase = static_cast<double>(k % 500), up = phase < 250 ? 1 : -1;
+    samples(ramp, "displacement")[k] = 1e-4 * (phase < 250 ? phase : 500 - phase);
+    samples(ramp, "velocity")[k] = 0.05 * up;
+    samples(ramp, "force")[k] = 300 * up + 0.1 * static_cast<double>(k * 7 % 5);
+  }
+  CHECK(doubts_about(ramp).empty());
+}
+
+TEST_CASE("a value that stands for a missing one is told; a peak that is held is none") {
+  Record record = sound_record();
+  std::fill_n(samples(record, "force").begin() + 600, 15, -9999.0);
+  CHECK(contains(only_doubt(record),
+                 "the force is -9999 N in 15 samples, the first at 1.2 s, far from all others, as "
+                 "loggers write where they have no value"));
+
+  Record peak = sound_record();
+  std::fill_n(samples(peak, "force").begin() + 600, 15, 2500.0);
+  CHECK(doubts_about(peak).empty());
+}
+
+TEST_CASE("samples that a logger lost are told with their number") {
+  Record record = sound_record();
+  record.sample_time = 0;
+  for (const std::size_t first : {1500u, 400u}) {
+    const auto drop = [&](std::vector<double>& values) {
+      values.erase(values.begin() + static_cast<std::ptrdiff_t>(first),
+                   values.begin() + static_cast<std::ptrdiff_t>(first + 2));
+    };
+    drop(record.time);
+    for (Channel& channel : record.channels) drop(channel.samples);
+  }
+  CHECK(contains(only_doubt(record),
+                 "4 samples are missing in 2 places by the time stamps, the "
+                 "first behind 0.798 s: the logger lost them"));
+
+  // Stamps that jitter are another matter.
+  Record jitter = sound_record();
+  jitter.sample_time = 0;
+  for (std::size_t k = 0; k < jitter.size(); k += 3) jitter.time[k] += 5e-4;
+  CHECK(doubts_about(jitter).empty());
+}
+
 TEST_CASE("a clipped force is told with its limit") {
   Record record = sound_record();
   for (double& value : samples(record, "force")) value = std::min(value, 600.0);
@@ -104,10 +192,13 @@ TEST_CASE("a last number that was cut and values of no damper are told") {
   Record cut = sound_record();
   samples(cut, "force").back() *= 100;
   CHECK(contains(only_doubt(cut), "the force leaps at the last sample"));
+  Record ranges = sound_record();
+  samples(ranges, "force").front() = 10000;
+  CHECK(contains(only_doubt(ranges), "the force leaps behind the first sample, which may be none"));
 
   Record unit = sound_record();
   for (double& value : samples(unit, "displacement")) value *= 1000;
-  CHECK(contains(only_doubt(unit), "is none of a damper: the unit or the column may be wrong"));
+  CHECK(contains(only_doubt(unit), "the displacement spans 40 m: is its unit m right?"));
 }
 
 TEST_CASE("a velocity of another size than the displacement's is told with its ratio") {

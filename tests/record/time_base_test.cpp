@@ -57,6 +57,43 @@ TEST_CASE("time that does not increase is refused at its line") {
         }).find("run.csv:4: time runs backwards: 0.5 after 1") == 0);
 }
 
+TEST_CASE("where time runs backwards it is told what stands there") {
+  // Ten rows, then the rows from `again` on, their times moved by `moved`.
+  const auto message = [](std::size_t again, double moved) {
+    RawTable table;
+    table.file = "run.csv";
+    table.lines = {{0, 2}};
+    table.columns.resize(1);
+    std::vector<double> stamps;
+    for (std::size_t k = 0; k < 10; ++k) {
+      stamps.push_back(static_cast<double>(k));
+      table.columns[0].values.push_back(10 + stamps.back());
+    }
+    stamps.push_back(static_cast<double>(again) + moved);
+    table.columns[0].values.push_back(10 + static_cast<double>(again));
+    return message_of([&] { require_increasing(stamps, table); });
+  };
+  CHECK(contains(message(0, 0), "another recording seems to begin; time must increase: give each"));
+  CHECK(
+      contains(message(6, 0), "the row is that of run.csv:8 again; time must increase: leave out"));
+  CHECK(
+      contains(message(6, 0.5), "runs backwards: 6.5 after 9; time must increase: sort the rows"));
+}
+
+TEST_CASE("samples that are missing are counted where nothing else is uneven") {
+  std::vector<double> stamps;
+  for (int k = 0; k < 100; ++k)
+    if (k != 20 && k != 21 && k != 60) stamps.push_back(k / 200.0);
+  const LostSamples lost = lost_samples(stamps);
+  CHECK(lost.samples == 3);
+  CHECK(lost.places == 2);
+  CHECK(describe(lost) ==
+        "3 samples are missing in 2 places by the time stamps, the first behind "
+        "0.095 s");
+  stamps[50] += 0.001;
+  CHECK(lost_samples(stamps).places == 0);
+}
+
 TEST_CASE("resampling interpolates linearly") {
   Record record;
   record.time = {0, 0.1, 0.4, 1};

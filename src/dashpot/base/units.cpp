@@ -1,6 +1,7 @@
 #include "dashpot/base/units.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <vector>
 
@@ -88,12 +89,15 @@ const Named* find_named(std::string_view name) {
   for (const Named& unit : kUnits)
     if (unit.name == name) return &unit;
 
-  // Words ("Newtons", "VOLTS") may be in any case and in the plural; symbols may not.
+  // Words ("Newtons", "VOLTS", "Amps") may be in any case and in the plural; symbols may not.
   std::string word = lower(name);
-  if (word.size() > 4 && word.back() == 's') word.pop_back();
-  if (word.size() < 3) return nullptr;
-  for (const Named& unit : kUnits)
-    if (unit.name == word) return &unit;
+  for (const bool is_plural : {false, true}) {
+    if (is_plural && (word.size() <= 3 || word.back() != 's')) break;
+    if (is_plural) word.pop_back();
+    if (word.size() < 3) break;
+    for (const Named& unit : kUnits)
+      if (unit.name == word) return &unit;
+  }
   return nullptr;
 }
 
@@ -136,12 +140,16 @@ std::optional<Unit> parse_factor(std::string_view text) {
   return power;
 }
 
-/// Spells superscripts, dots and blanks between factors as ^ and *.
+/// Spells superscripts, dots and blanks between factors as ^ and *, "mm per s" as "mm/s".
 std::string normalise(std::string_view text) {
   static constexpr std::pair<std::string_view, std::string_view> kSpellings[] = {
-      {"\u00b2", "^2"}, {"\u00b3", "^3"},  {"\u207b\u00b9", "^-1"},
-      {"\u00b7", "*"},  {"\u22c5", "*"},   {"\u00b0", "deg"},
-      {"**", "^"},      {"deg C", "degC"}, {"deg F", "degF"}};
+      {"\u207b\u00b9", "^-1"}, {"\u207b\u00b2", "^-2"},
+      {"\u207b\u00b3", "^-3"}, {"\u00b2", "^2"},
+      {"\u00b3", "^3"},        {"\u2212", "-"},
+      {"\u00b7", "*"},         {"\u22c5", "*"},
+      {"\u00b0", "deg"},       {"**", "^"},
+      {"deg C", "degC"},       {"deg F", "degF"},
+      {" per ", "/"}};
   std::string out(trim(text));
   for (const auto& [from, to] : kSpellings)
     for (std::size_t at; (at = out.find(from)) != std::string::npos;)
@@ -150,6 +158,14 @@ std::string normalise(std::string_view text) {
     if ((out[k] == ' ' || out[k] == '.') && std::isalpha(static_cast<unsigned char>(out[k + 1])))
       out[k] = '*';
   std::erase(out, ' ');
+
+  // "mm*s-1": an exponent without its caret, which a factor alone ("T-1", a channel) is not taken
+  // to have.
+  if (out.find('*') != std::string::npos)
+    for (std::size_t k = 1; k + 1 < out.size(); ++k)
+      if (out[k] == '-' && std::isalpha(static_cast<unsigned char>(out[k - 1])) &&
+          std::isdigit(static_cast<unsigned char>(out[k + 1])))
+        out.insert(k++, 1, '^');
   return out;
 }
 

@@ -19,8 +19,8 @@ struct Unit {
 };
 
 /// Reads "mm", "N*s/m", "cm/s^2", "1/(m*A)", "kN", "in", "lbf", "g0", "degC", "1", "%". Also
-/// accepts "N s/m", "N.s/m", "m/s²" and the spellings "newton", "Newtons", "sec", "volts". Nothing
-/// when unknown.
+/// accepts "N s/m", "N.s/m", "m/s²", "mm s-1", "mm per s" and the spellings "newton", "Newtons",
+/// "sec", "volts", "Amps". Nothing when unknown.
 std::optional<Unit> parse_unit(std::string_view text);
 
 /// As parse_unit, but throws Error(where, ...) that names the unit and near ones.

@@ -1,6 +1,7 @@
 #include "dashpot/record/build_record.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -15,6 +16,7 @@
 #include "dashpot/record/integrate.h"
 #include "dashpot/record/side_passes.h"
 #include "dashpot/record/time_base.h"
+#include "dashpot/record/unit_doubts.h"
 
 namespace dashpot {
 namespace {
@@ -60,10 +62,15 @@ std::string refusal(const RawTable& table, const ColumnUses& uses, bool as_given
                               : "no line names the columns: state them by number in a "
                                 "dataset file: 'channels: {force: {column: 2, unit: N}}'";
   // Familiar names that were refused tell more than the list of all names.
+  const auto is_told = [](const std::string& why) {
+    return std::ranges::any_of(
+        std::array{"unit", "may be", "not a measurement"},
+        [&](const char* word) { return why.find(word) != std::string::npos; });
+  };
   std::string refused;
   std::size_t told = 0;
   for (const auto& [column, why] : uses.unused)
-    if (why.find("unit") != std::string::npos && told++ < kToldColumns)
+    if (is_told(why) && told++ < kToldColumns)
       refused += ", '" + label(table.columns[column], column) + "' " + why;
   return "no column is " + missing + " by its name (it has " + table.column_list() + refused +
          "); " + how;
@@ -91,26 +98,25 @@ std::string_view last_part(std::string_view name) {
 /// Throws Error at a step without a unit that is no second of any test: a logger's ms, most likely.
 void require_plausible_step(double step, const std::string& what, const std::string& file,
                             const std::string& right) {
-  constexpr double kLongest = 0.5;  // s
-  if (step < kLongest) return;
+  if (step < kLongestBetweenSamples) return;
   throw Error(
       file, what + " of " + format_number(step, 3) + ", which are no seconds in a test of a damper",
       right);
 }
 
-/// Sample time in s from a single number beside the columns whose name says that it is a sample
-/// time or a rate; `basis` says which.
-std::optional<double> sample_time_of_scalars(const RawTable& table, std::string& basis) {
+/// A single number beside the columns whose name says that it is a sample time or a rate.
+struct ScalarStep {
+  std::string name;
+  bool is_rate = false;
+  double seconds = 0;
+};
+std::optional<ScalarStep> step_of_scalars(const RawTable& table) {
   for (const auto& [name, value] : table.scalars) {
     const std::string word = lower(last_part(name));
     const bool step = word == "ts" || word == "dt" || word == "sample_time" || word == "sampletime";
     const bool rate = word == "fs" || word == "sample_rate" || word == "samplerate";
-    if ((!step && !rate) || !(value > 0) || !std::isfinite(value)) continue;
-    basis = (step ? "row times " : "row divided by ") + name;
-    const double seconds = step ? value : 1 / value;
-    require_plausible_step(seconds, name + " has no unit and means steps", table.file,
-                           "state the rate in a dataset file: 'time: {sample_rate: 1000}'");
-    return seconds;
+    if ((step || rate) && value > 0 && std::isfinite(value))
+      return ScalarStep{name, rate, rate ? 1 / value : value};
   }
   return std::nullopt;
 }
@@ -120,11 +126,37 @@ void require_plausible_stamps(const std::vector<double>& stamps, const RawTable&
                               const ColumnUse& use) {
   if (use.basis.find("assumed SI") == std::string::npos || stamps.size() < 2) return;
   const std::string name = label(table.columns[use.column], use.column);
-  require_plausible_step((stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1),
-                         "time (" + name + ") has no unit and steps", table.file,
-                         "name it " + name +
-                             "_ms, or state its unit in a dataset file: 'time: {column: " +
-                             yaml_string(name) + ", unit: ms}'");
+  const double step = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  const std::string unit(likelier_time_unit(step));
+  require_plausible_step(step, "time (" + name + ") has no unit and steps", table.file,
+                         "name it " + name + "_" + unit +
+                             ", or state its unit in a dataset file: 'time: {column: " +
+                             yaml_string(name) + ", unit: " + unit + "}'");
+}
+
+/// Whether stamps, `factor` s their unit, agree with a sample time: their median step does, or the
+/// mean where they are printed to few digits.
+bool agree_with(std::span<const double> stamps, double factor, double step) {
+  constexpr double kAlike = 0.01;
+  const double mean = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  return std::abs(factor * usual_step(stamps) / step - 1) < kAlike ||
+         std::abs(factor * mean / step - 1) < kAlike;
+}
+
+/// What a time column that does not count says against the sample time that does; "" where there
+/// is none, or where it agrees.
+std::string contradicting_stamps(const RawTable& table, const ColumnUses& uses, double step) {
+  for (const auto& [index, why] : uses.unused) {
+    const RawColumn& column = table.columns[index];
+    const NamedChannel named = recognise_channel(column.name, column.unit);
+    const auto unit = parse_unit(named.unit.empty() ? "s" : named.unit);
+    if (named.channel != "time" || !unit || column.bad || column.values.size() < 3) continue;
+    const double stamped = unit->factor * usual_step(column.values);
+    if (stamped > 0 && !agree_with(column.values, unit->factor, step))
+      return "samples are taken as " + format_number(step) + " s apart, not as " +
+             format_number(stamped) + " s, which the column '" + label(column, index) + "' says";
+  }
+  return {};
 }
 
 /// Takes the time column or makes the time stamps. Returns in words how time was understood. A
@@ -142,6 +174,13 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
     require_plausible_stamps(record.time, table, *use);
     record.sample_time = uniform_step(record.time) * use->factor;
     for (double& stamp : record.time) stamp = use->factor * (stamp - use->raw_offset);
+    const auto beside = step_of_scalars(table);
+    if (beside && record.size() > 2 && !agree_with(record.time, 1, beside->seconds))
+      record.notes.push_back("samples are taken as " + format_number(usual_step(record.time)) +
+                             " s apart, as the column '" +
+                             label(table.columns[use->column], use->column) +
+                             "' says; the number '" + beside->name + "' means " +
+                             format_number(beside->seconds) + " s");
     if (!(record.sample_time > 0)) return "not uniform: kept as it is";
     make_uniform(record.time, record.time[0], record.sample_time);
     return "uniform within the printed digits";
@@ -153,13 +192,20 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
     require_plausible_step(*step, "the file states steps", table.file,
                            "state the rate in a dataset file: 'time: {sample_rate: 1000}'");
   }
-  if (!step) step = sample_time_of_scalars(table, basis);
+  if (const auto beside = step_of_scalars(table); !step && beside) {
+    step = beside->seconds;
+    basis = (beside->is_rate ? "row divided by " : "row times ") + beside->name;
+    require_plausible_step(*step, beside->name + " has no unit and means steps", table.file,
+                           "state the rate in a dataset file: 'time: {sample_rate: 1000}'");
+  }
   if (!step)
     throw Error(table.file, "no column is time by its name (it has " + table.column_list() + ")",
                 context.as_given ? "give a sample_time in s, or name a column 'time [s]'"
                                  : "state in a dataset file 'time: {sample_rate: 1000}' or 'time: "
                                    "{column: NAME, unit: s}'");
 
+  if (std::string other = contradicting_stamps(table, uses, *step); !other.empty())
+    record.notes.push_back(std::move(other));
   record.sample_time = *step;
   record.time.resize(table.rows());
   make_uniform(record.time, 0, *step);
@@ -363,10 +409,18 @@ void doubt_one_test(Record& record) {
 void add_velocity(Record& record, const BuildContext& context) {
   if (record.find("velocity")) return;
   const std::vector<double>& x = record.channel("displacement").samples;
-  if (!(record.sample_time > 0))
-    throw Error(record.source, "velocity cannot be derived: the time stamps are not uniform",
-                "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the "
-                "'sample_rate' when the stamps are wrong");
+  if (!(record.sample_time > 0)) {
+    const LostSamples lost = lost_samples(record.time);
+    const std::string rate = format_number(1 / usual_step(record.time), 4);
+    throw Error(record.source,
+                "velocity cannot be derived: the time stamps are not uniform" +
+                    (lost.places > 0 ? ", " + describe(lost) : ""),
+                lost.places > 0
+                    ? "state in a dataset file 'resample: " + rate +
+                          "', which fills the gaps with straight lines, or a velocity column"
+                    : "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the "
+                      "'sample_rate' when the stamps are wrong");
+  }
 
   double cutoff = context.statement->velocity_cutoff_hz;
   std::string basis = "stated";
@@ -500,39 +554,12 @@ void settle_inertia(Record& record, const ColumnUses& uses) {
   const double usual = usual_acceleration(acceleration);
   const auto [low, high] = std::ranges::minmax_element(record.channel("force").samples);
   const double half_span = 0.5 * (*high - *low);
-  if (usual > kFelt * half_span)
+  if (half_span > 0 && usual > kFelt * half_span)
     record.notes.push_back("each kilogram that moves between load cell and damper adds up to " +
                            format_number(usual, 3) + " N (" +
                            format_number(100 * usual / half_span, 2) +
                            " % of the force's half span); where there is such a mass, "
                            "'moving_mass' of force takes it off");
-}
-
-/// The span that dampers on test benches have, generously: beyond it the unit is doubtful, and only
-/// that.
-struct UsualSpan {
-  std::string_view channel;
-  double least, most;  ///< SI
-  std::string_view unit;
-};
-constexpr UsualSpan kUsualSpans[] = {{"displacement", 1e-4, 2, "mm"}, {"force", 2, 2e6, "kN"}};
-
-/// Notes, without refusing, a span that is unusual for dampers on benches.
-void doubt_units(Record& record, const ColumnUses& uses) {
-  for (const UsualSpan& usual : kUsualSpans) {
-    const ColumnUse* use = find_use(uses, usual.channel);
-    if (!use) continue;
-    const Channel& channel = record.channel(usual.channel);
-    const auto [low, high] = std::minmax_element(channel.samples.begin(), channel.samples.end());
-    const double span = *high - *low;
-    if (span == 0 || (span >= usual.least && span <= usual.most)) continue;
-
-    const bool assumed = use->basis.find("assumed") != std::string::npos;
-    record.notes.push_back(channel.name + " spans " + format_number(span) + " " + channel.unit +
-                           ": is its unit " + use->unit + " right? It was " +
-                           (assumed ? "assumed" : "taken from the file") +
-                           "; a dataset file states it: 'unit: " + std::string(usual.unit) + "'");
-  }
 }
 
 double mean_of(const Channel& channel) {
@@ -703,8 +730,11 @@ std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
     Record& record = all[k].record;
     settle_inertia(record, uses);
     if (!shared.as_given) note_direction(record, stretches[k], uses);
-    doubt_units(record, uses);
     add_drive(record, contexts[k].level, all[k].drive_note);
+    // Records of files are doubted together, when all are there.
+    if (shared.as_given)
+      for (std::string& doubt : doubts_about_units(record))
+        record.notes.push_back(std::move(doubt));
   }
   return all;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,8 @@ constexpr Ambiguous kAmbiguous[] = {
     {"V", "velocity", "voltage"}, {"A", "acceleration", "current"}, {"T", "time", "temperature"}};
 
 constexpr std::string_view kWishes =
-    "target reference ref setpoint set command cmd commanded desired error min max mean";
+    "target reference ref setpoint set command cmd commanded desired demand demanded error min max "
+    "mean average avg std peak valley amplitude soll sollwert vorgabe consigna deseado desejado";
 
 bool contains_word(std::string_view list, std::string_view word) {
   for (std::size_t at = 0; at < list.size();) {
@@ -76,16 +78,26 @@ std::vector<std::string> words_of(std::string_view name) {
   return words;
 }
 
-/// The channel of a name without its unit; "" when unknown.
-std::string channel_of(std::string_view name) {
+/// The channels of a name without its unit: none when unknown, and two where its first word names
+/// one and its last another, "load displacement".
+std::vector<std::string> channels_of(std::string_view name) {
   for (const Names& known : kNames)
-    if (contains_word(known.exact, name)) return std::string(known.channel);
+    if (contains_word(known.exact, name)) return {std::string(known.channel)};
   const std::vector<std::string> words = words_of(name);
-  if (words.empty()) return {};
+  std::vector<std::string> channels;
+  if (words.empty()) return channels;
   for (const std::string& end : {words.front(), words.back()})
     for (const Names& known : kNames)
-      if (contains_word(known.words, end)) return std::string(known.channel);
-  return {};
+      if (contains_word(known.words, end) &&
+          std::ranges::find(channels, known.channel) == channels.end())
+        channels.emplace_back(known.channel);
+  return channels;
+}
+
+/// The first of them; "" when unknown.
+std::string channel_of(std::string_view name) {
+  const std::vector<std::string> channels = channels_of(name);
+  return channels.empty() ? "" : channels.front();
 }
 
 bool is_wish(std::string_view name) {
@@ -158,9 +170,16 @@ NamedChannel resolve(const std::string& name, const std::string& given) {
             false};
   }
 
+  // Of two channels the unit decides.
+  std::vector<std::string> channels = channels_of(name);
+  if (channels.empty()) return {};
+  if (channels.size() > 1 && parsed)
+    std::erase_if(channels, [&](const std::string& one) { return !fits(one, *parsed); });
+  if (channels.size() > 1)
+    return {{}, unit, "'" + name + "' may be " + channels[0] + " or " + channels[1], false};
+
   // Refuse what is no measurement, and units of another dimension.
-  const std::string channel = channel_of(name);
-  if (channel.empty()) return {};
+  const std::string channel = channels.empty() ? known : channels.front();
   if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name", false};
   if (parsed && !fits(channel, *parsed))
     return {{}, unit, "unit '" + unit + "' does not fit " + channel, false};
@@ -175,14 +194,16 @@ constexpr std::string_view kRemarks =
     "measured meas actual filtered filt raw abs absolute rel relative lvdt cell load sensor "
     "channel "
     "ch ai top bottom left right front rear upper lower piston rod damper coil rms nominal signal "
-    "input output in out total dynamic static axial hh mm ss hhmmss iso date datetime clock local "
-    "utc x y z no nr";
+    "input output in out total dynamic static axial hhmmss iso date datetime clock local utc x y z "
+    "no nr";
 
 bool is_remark(std::string_view text) {
+  constexpr std::string_view kClock = "hh mm ss";  // "hh:mm:ss"; alone "mm" is a unit
   const std::vector<std::string> words = words_of(text);
   const bool is_inch_mark = words.empty() && text.find('"') != std::string_view::npos;
-  return !is_inch_mark && std::all_of(words.begin(), words.end(), [](const std::string& w) {
-    return contains_word(kRemarks, w);
+  const bool is_clock = std::ranges::find(words, "hh") != words.end();
+  return !is_inch_mark && std::all_of(words.begin(), words.end(), [&](const std::string& w) {
+    return contains_word(kRemarks, w) || (is_clock && contains_word(kClock, w));
   });
 }
 
@@ -224,11 +245,14 @@ bool meant_as_unit(std::string_view text, std::string_view channel) {
       "count "
       "bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r pound "
       "pounds kilogram kilograms newton newtons kilonewton kilonewtons micron microns mms cms mps "
-      "mmps cmps inps";
+      "mmps cmps inps minute minutes hour hours minuten sekunden stunden millisekunden minutos "
+      "segundos horas zoll zentimeter pulgadas polegadas milimetros centimetros metros \" ''";
   const std::vector<std::string> usual = split(std::string(usual_units(channel)), ' ');
-  return contains_word(kForeign, lower(text)) ||
+  std::string word = lower(text);
+  if (const bool is_quotient = word.ends_with("-1"); is_quotient) word.resize(word.size() - 2);
+  return contains_word(kForeign, word) ||
          std::any_of(usual.begin(), usual.end(),
-                     [&](const std::string& unit) { return lower(unit) == lower(text); });
+                     [&](const std::string& unit) { return lower(unit) == word; });
 }
 
 /// A familiar name with a unit that nobody knows, wherever people write it. The channel is empty
@@ -246,8 +270,10 @@ NamedChannel with_unknown_unit(std::string_view column) {
     const std::size_t from = column.find(open), to = column.rfind(close);
     if (from == std::string_view::npos || to == std::string_view::npos || to < from) continue;
     const std::string_view inside = trim(column.substr(from + 1, to - from - 1));
-    if (inside.empty() || is_remark(inside)) return {};
-    return refuse(column.substr(0, from), inside);
+    const std::string_view name = column.substr(0, from);
+    const bool is_unit = meant_as_unit(inside, channel_of(trim(name)));  // "IN", inputs elsewhere
+    if (inside.empty() || (is_remark(inside) && !is_unit)) return {};
+    return refuse(name, inside);
   }
 
   // Behind a comma or a slash as well; behind a blank or an underscore only what looks like one.
@@ -263,21 +289,117 @@ NamedChannel with_unknown_unit(std::string_view column) {
   return {};
 }
 
-/// A usual unit of the channel that stands as a word anywhere in a name: "kN force",
-/// "Force_kN_filt"; "" where there is none, or more than one. A letter alone, or "in", may mean
-/// anything; behind a number stands the range of a sensor: "10 kN load cell".
+/// The pieces of a name between blanks, underscores, commas, semicolons, bars and brackets.
+std::vector<std::string> pieces_of(std::string_view name) {
+  constexpr std::string_view kBetween = " _,;:|<>()[]{}";
+  std::string spaced(name);
+  std::ranges::replace_if(
+      spaced, [&](char c) { return kBetween.find(c) != std::string_view::npos; }, ' ');
+  std::vector<std::string> pieces = split(spaced, ' ');
+  std::erase(pieces, "");
+  return pieces;
+}
+
+/// A usual unit of the channel that stands as a word anywhere in a name, "kN force" or
+/// "Force_kN_filt", or a quotient that is one, "velocity mm/s filt"; "" where there is none, or
+/// more than one. A letter alone, or "in", may mean anything; behind a number stands the range of a
+/// sensor: "10 kN load cell".
 std::string unit_among_words(std::string_view name, std::string_view channel) {
   const std::string usual(usual_units(channel));
-  std::string spaced, found, before;
+  if (usual.empty()) return {};
+  std::string found;
+  const auto is_another = [&](const std::string& unit) {
+    if (!found.empty() && found != unit) return true;
+    found = unit;
+    return false;
+  };
+
+  // Quotients.
+  for (const std::string& piece : pieces_of(name)) {
+    const auto unit = piece.find_first_of("/^-.") == std::string::npos || piece.size() < 3
+                          ? std::nullopt
+                          : parse_unit(piece);
+    if (unit && fits(channel, *unit) && is_another(piece)) return {};
+  }
+  if (!found.empty()) return found;
+
+  // Words.
+  std::string spaced, before;
   for (const char c : name) spaced += std::isalnum(static_cast<unsigned char>(c)) ? c : ' ';
   for (const std::string& word : split(spaced, ' ')) {
     const bool is_range = std::exchange(before, word).find_first_of("0123456789") == 0;
     const bool is_unit = word.size() >= 2 && word != "in" && contains_word(usual, word);
-    if (!is_unit || is_range || word == found) continue;
-    if (!found.empty()) return {};
-    found = word;
+    if (is_unit && !is_range && is_another(word)) return {};
   }
   return found;
+}
+
+/// "x1000", "*10", "1000x", "/10", "1/10", or two pieces "x 1000": a factor between what stands in
+/// the file and the unit, which may be there to be multiplied or to be divided by. "x1" is the
+/// first of several channels.
+std::string factor_among(std::string_view name) {
+  constexpr std::string_view kMarks = "xX*/";
+  constexpr double kFewest = 10;
+  const auto is_factor = [](std::string_view text) {
+    const auto number = parse_number(text);
+    return number && std::isfinite(*number) && *number > 0 && (*number >= kFewest || *number < 1);
+  };
+  std::string spelled(name);
+  for (const auto& [sign, mark] : {std::pair{"\u00d7", "x"}, {"\u00b7", "*"}})
+    for (std::size_t at; (at = spelled.find(sign)) != std::string::npos;)
+      spelled.replace(at, 2, mark);
+
+  const std::vector<std::string> pieces = pieces_of(spelled);
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    const std::string& piece = pieces[k];
+    const bool marked = kMarks.find(piece.front()) != std::string_view::npos;
+    if (marked && is_factor(std::string_view(piece).substr(1))) return piece;
+    if (marked && piece.size() == 1 && k + 1 < pieces.size() && is_factor(pieces[k + 1]))
+      return piece + " " + pieces[k + 1];
+    // "1/10 mm" and "1/10mm".
+    const std::size_t end = piece.find_first_not_of("0123456789", 2);
+    if (piece.starts_with("1/") && is_factor(std::string_view(piece).substr(2, end - 2)))
+      return piece.substr(0, end);
+    const bool ends_marked = piece.back() == 'x' || piece.back() == 'X';
+    if (ends_marked && is_factor(std::string_view(piece).substr(0, piece.size() - 1))) return piece;
+  }
+
+  // "Force/1000" and "Force*10" in one piece.
+  for (const std::string& piece : pieces)
+    if (const std::size_t at = piece.find_last_of("*/");
+        at != std::string::npos && at > 0 &&
+        std::isalpha(static_cast<unsigned char>(piece[at - 1])) &&
+        is_factor(std::string_view(piece).substr(at + 1)))
+      return piece.substr(at);
+  return {};
+}
+
+/// "10 kN" at the end of a name: the unit of its numbers, or the range of the sensor; "" where both
+/// mean the same. A small number counts channels; one below 1 is a resolution.
+std::string range_at_end(std::string_view name, std::string_view channel) {
+  constexpr double kLeast = 5, kMost = 1;
+  const std::vector<std::string> pieces = pieces_of(name);
+  const bool has_range = channel != "time" && channel != "temperature";
+  if (!has_range || name.find_first_of("[({") != std::string_view::npos || pieces.size() < 3)
+    return {};
+  const std::string& unit = pieces.back();
+  const auto number = parse_number(pieces[pieces.size() - 2]);
+  const auto parsed = parse_unit(unit);
+  const bool is_count = number && *number >= kMost && *number < kLeast;
+  if (!number || is_count || !parsed || parsed->factor == 1) return {};
+  return pieces[pieces.size() - 2] + " " + unit;
+}
+
+/// Why a familiar name may not tell the size of what is below it; "" where nothing speaks against.
+std::string doubt_of_size(std::string_view name, std::string_view channel) {
+  if (const std::string factor = factor_among(name); !factor.empty())
+    return "a factor '" + factor +
+           "' in its name, by which its numbers may have been multiplied, or are to be ('scale' in "
+           "a dataset file says which)";
+  if (const std::string range = range_at_end(name, channel); !range.empty())
+    return "'" + range +
+           "' in its name, a range or resolution of the sensor or the unit of the numbers";
+  return {};
 }
 
 /// A name as people type it: other programs have no-break blanks in it, or marks in the place of
@@ -294,7 +416,16 @@ std::string as_typed(std::string_view column) {
     if (last != std::string::npos) name.erase(last + 1);
   }
 
-  // Points before a letter as one underscore; "force.1" and "0.5A" keep theirs.
+  // "per" between words that underscores join.
+  for (std::size_t at; (at = name.find("_per_")) != std::string::npos;) name.replace(at, 5, "/");
+
+  // Points before a letter as one underscore; "force.1" and "0.5A" keep theirs, and "mm.s-1" does.
+  std::vector<std::string> pieces = pieces_of(name);
+  const bool has_product = std::ranges::any_of(pieces, [](const std::string& piece) {
+    return piece.find('.') != std::string::npos && piece.find_first_of("^-") != std::string::npos &&
+           parse_unit(piece);
+  });
+  if (has_product) return name;
   std::string typed;
   for (std::size_t k = 0; k < name.size(); ++k) {
     const std::size_t next = name.find_first_not_of('.', k);
@@ -333,7 +464,12 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
     return {{}, {}, "a column of a matrix has no name of its own", false};
 
   // Try the ways to split name and unit; the first that is a channel counts, and the first problem
-  // is kept.
+  // is kept. A name may leave the size of its numbers open.
+  const auto sized = [&](NamedChannel found) {
+    if (!found.channel.empty() && found.problem.empty())
+      found.problem = doubt_of_size(column, found.channel);
+    return found;
+  };
   NamedChannel refused;
   for (const Parts& parts : possible_parts(whole)) {
     NamedChannel found = resolve(parts.name, parts.unit);
@@ -341,7 +477,7 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
         !found.channel.empty() && !row.empty() && parse_unit(row) && row != found.unit;
     if (two_units)
       found.problem = "two units: '" + found.unit + "' in its name and '" + row + "' below it";
-    if (!found.channel.empty()) return found;
+    if (!found.channel.empty()) return sized(std::move(found));
     if (refused.problem.empty()) refused = found;
   }
 
@@ -352,13 +488,13 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
   if (!known && !found.channel.empty()) found.problem = unknown_unit(row, found.channel);
   if (!known && found.channel.empty()) found.problem = "unit '" + row + "' is unknown";
   if (!known) found.unit.clear();
-  if (!row.empty()) return found;
+  if (!row.empty()) return sized(std::move(found));
 
   // A name that holds a unit which nobody knows is not taken as SI.
-  const NamedChannel unknown = with_unknown_unit(whole);
+  NamedChannel unknown = with_unknown_unit(whole);
   if (!unknown.channel.empty()) return unknown;
   if (found.unit.empty()) found.unit = unit_among_words(whole, found.channel);
-  return found;
+  return sized(std::move(found));
 }
 
 }  // namespace dashpot

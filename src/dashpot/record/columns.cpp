@@ -122,7 +122,11 @@ const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
 
 [[noreturn]] void refuse_two(const std::vector<Claim>& claims, const RawTable& table) {
   const std::string& channel = claims.front().named.channel;
-  const std::string first = "{column: " + yaml_string(column_name(table, claims[0].column)) + "}";
+  // Columns of one name are told apart by their numbers.
+  const std::string name = column_name(table, claims[0].column);
+  const bool is_same = name == column_name(table, claims[1].column);
+  const std::string first =
+      "{column: " + (is_same ? std::to_string(claims[0].column + 1) : yaml_string(name)) + "}";
   throw Error(
       table.file,
       "columns '" + column_name(table, claims[0].column) + "' and '" +

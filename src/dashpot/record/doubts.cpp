@@ -1,13 +1,14 @@
 #include "dashpot/record/doubts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "dashpot/base/text.h"
 #include "dashpot/record/side_passes.h"
+#include "dashpot/record/time_base.h"
+#include "dashpot/record/unit_doubts.h"
 
 namespace dashpot {
 namespace {
@@ -107,27 +108,97 @@ std::optional<std::string> stuck_displacement(const Record& record, const Sample
   return std::nullopt;
 }
 
-/// A displacement that stands still up to the end while force or a measured velocity go to and fro.
+/// Whether values go smoothly from sample to sample, as a motion does and noise does not.
+bool is_smooth(const Samples& values) {
+  constexpr double kShare = 0.05;  // of the span, in the median
+  const auto [low, high] = std::ranges::minmax(values);
+  Samples steps;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    steps.push_back(std::abs(values[k] - values[k - 1]));
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return *middle < kShare * (high - low);
+}
+
+/// A displacement that stands still while force or a measured velocity go to and fro.
 std::optional<std::string> dead_displacement(const Record& record, const Samples& displacement) {
   constexpr std::size_t kLeast = 20, kPasses = 3;
   constexpr double kBand = 0.2;
-  const std::vector<Run> runs = equal_runs(displacement, kLeast);
-  if (runs.empty() || runs.back().end != displacement.size() || runs.back().first == 0)
-    return std::nullopt;
+  for (const Run& still : equal_runs(displacement, kLeast)) {
+    const bool from_start = still.first == 0, to_end = still.end == displacement.size();
 
-  // A motion that ends at rest lets the force settle; a motion that goes on takes it from one half
-  // of its usual range into the other, and back.
-  const Run& still = runs.back();
-  for (const std::string_view name : {"force", "velocity"}) {
-    const Channel* channel = record.find(name);
-    if (!channel || channel->origin.starts_with("derived")) continue;
-    const auto [low, high] = std::ranges::minmax(channel->samples);
-    SidePasses passes{0.5 * (low + high), kBand * 0.5 * (high - low)};
-    for (std::size_t k = still.first; k < still.end; ++k) passes.see(channel->samples[k]);
-    if (passes.count >= kPasses)
+    // A motion that ends at rest lets the force settle; a motion that goes on takes it from one
+    // half of its usual range into the other, and back. Where nothing ever moves, noise does so.
+    for (const std::string_view name : {"force", "velocity"}) {
+      const Channel* channel = record.find(name);
+      if (!channel || channel->origin.starts_with("derived")) continue;
+      if (from_start && to_end && !is_smooth(channel->samples)) continue;
+      const auto [low, high] = std::ranges::minmax(channel->samples);
+      SidePasses passes{0.5 * (low + high), kBand * 0.5 * (high - low)};
+      for (std::size_t k = still.first; k < still.end; ++k) passes.see(channel->samples[k]);
+      if (passes.count < kPasses) continue;
+
+      const std::string goes_on = " while the " + std::string(name) + " goes on: ";
+      if (from_start && to_end)
+        return "the displacement stands still throughout" + goes_on +
+               "the sensor is dead, or the column another one";
       return "the displacement stands still " + between(record, still) +
-             ", the end of the record, while the " + std::string(name) +
-             " goes on: the sensor died; 'cut' in a dataset file leaves that part out";
+             (to_end       ? ", the end of the record,"
+              : from_start ? ", the start of the record,"
+                           : "") +
+             goes_on + "the sensor " + (to_end ? "died" : "stuck") +
+             (to_end || from_start ? "; 'cut' in a dataset file leaves that part out" : "");
+    }
+  }
+  return std::nullopt;
+}
+
+/// A measured velocity that does not change at all while the displacement goes elsewhere.
+std::optional<std::string> stuck_velocity(const Record& record, const Samples& displacement) {
+  constexpr std::size_t kLeast = 20;
+  constexpr double kShareOfStroke = 0.2;
+  const Channel* velocity = record.find("velocity");
+  if (!velocity || velocity->origin.starts_with("derived")) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(displacement);
+  for (const Run& run : equal_runs(velocity->samples, kLeast)) {
+    const double v = velocity->samples[run.first];
+    const double way = v * (record.time[run.end - 1] - record.time[run.first]);
+    const double gone = displacement[run.end - 1] - displacement[run.first];
+    if (std::abs(gone - way) > kShareOfStroke * (high - low))
+      return "the velocity stands at " + format_number(v, 6) + " m/s " + between(record, run) +
+             " while the displacement goes " + format_number(gone, 3) +
+             " m: the sensor stuck, or its range was too small";
+  }
+  return std::nullopt;
+}
+
+/// One extreme value in several samples, far from all others: what loggers write where they have
+/// no value, -9999 or the end of a converter's range.
+std::optional<std::string> placeholder(const Record& record, const Channel& channel) {
+  constexpr double kFar = 3, kMostOften = 0.2;
+  const Samples& values = channel.samples;
+  const auto [lowest, highest] = std::ranges::minmax(values);
+  for (const double extreme : {lowest, highest}) {
+    // All others, and how often it is there itself.
+    double low = INFINITY, high = -INFINITY;
+    std::size_t count = 0, first = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (values[k] == extreme) {
+        if (count++ == 0) first = k;
+        continue;
+      }
+      low = std::min(low, values[k]), high = std::max(high, values[k]);
+    }
+
+    const double gap = extreme < low ? low - extreme : extreme - high;
+    if (count < 2 || static_cast<double>(count) > kMostOften * static_cast<double>(values.size()))
+      continue;
+    if (!(high > low) || gap <= kFar * (high - low)) continue;
+    return "the " + channel.name + " is " + format_number(extreme, 6) + " " + channel.unit +
+           " in " + std::to_string(count) + " samples, the first at " +
+           seconds(record.time[first]) +
+           ", far from all others, as loggers write where they have no value: leave these cells "
+           "empty, and their rows out by 'on_bad_row: drop' in a dataset file";
   }
   return std::nullopt;
 }
@@ -235,40 +306,21 @@ std::optional<std::string> held(const Record& record, const Samples& values,
          "' in a dataset file brings all channels to that rate";
 }
 
-/// A last step far above all others, as where the digits of a last number are missing.
-std::optional<std::string> leap_at_end(const Samples& values, std::string_view name) {
+/// A first or last step far above all others, as where a line of ranges was taken for a sample, or
+/// where the digits of a last number are missing.
+std::optional<std::string> leap_at_an_end(const Samples& values, std::string_view name) {
   constexpr double kLeap = 10;
-  double largest = 0;
-  for (std::size_t k = 1; k + 1 < values.size(); ++k)
-    largest = std::max(largest, std::abs(values[k] - values[k - 1]));
-  const double last = std::abs(values.back() - values[values.size() - 2]);
-  if (largest == 0 || last <= kLeap * largest) return std::nullopt;
-  return "the " + std::string(name) + " leaps at the last sample: the file may have been cut off";
-}
-
-/// A value that no test of a damper has.
-std::optional<std::string> implausible(const Record& record) {
-  struct Limit {
-    std::string_view channel;
-    double most;
-    std::string_view unit;
-  };
-  constexpr std::array kLimits{Limit{"displacement", 10, "m"}, Limit{"velocity", 100, "m/s"},
-                               Limit{"force", 1e8, "N"}, Limit{"current", 1e3, "A"},
-                               Limit{"voltage", 1e5, "V"}};
-
-  // The first channel whose farthest value is beyond its limit.
-  for (const auto& [name, most, unit] : kLimits) {
-    const Channel* channel = record.find(name);
-    if (!channel) continue;
-    const auto worst = std::ranges::max_element(channel->samples, {},
-                                                [](double value) { return std::abs(value); });
-    if (std::abs(*worst) > most)
-      return "a " + std::string(name) + " of " + format_number(*worst, 4) + " " +
-             std::string(unit) + " at " +
-             seconds(record.time[static_cast<std::size_t>(worst - channel->samples.begin())]) +
-             " is none of a damper: the unit or the column may be wrong";
-  }
+  Samples steps;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    steps.push_back(std::abs(values[k] - values[k - 1]));
+  const double largest = *std::max_element(steps.begin() + 1, steps.end() - 1);
+  if (largest == 0) return std::nullopt;
+  if (steps.back() > kLeap * largest)
+    return "the " + std::string(name) + " leaps at the last sample: the file may have been cut off";
+  if (steps.front() > kLeap * largest)
+    return "the " + std::string(name) +
+           " leaps behind the first sample, which may be none: 'cut' in a dataset file leaves it "
+           "out";
   return std::nullopt;
 }
 
@@ -298,13 +350,12 @@ std::optional<std::string> wrong_scale(const Record& record, const Samples& disp
 }  // namespace
 
 std::vector<std::string> doubts_about(const Record& record) {
-  std::vector<std::string> doubts;
+  std::vector<std::string> doubts = doubts_about_units(record);
   const auto add = [&](const std::optional<std::string>& doubt) {
     if (doubt) doubts.push_back(*doubt);
   };
   constexpr std::size_t kFewest = 20;  // samples that tell a pattern
   if (record.size() < kFewest) return doubts;
-  add(implausible(record));
 
   // What the channels show by themselves.
   const Channel* const force = record.find("force");
@@ -312,16 +363,26 @@ std::vector<std::string> doubts_about(const Record& record) {
   for (const Channel* channel : {displacement, force})
     if (channel) {
       const double span = usual_span(channel->samples);
-      if (span > 0) add(spikes(record, channel->samples, span, channel->name));
-      add(leap_at_end(channel->samples, channel->name));
+      const auto missing = placeholder(record, *channel);
+      if (!missing && span > 0) add(spikes(record, channel->samples, span, channel->name));
+      add(missing);
+      add(leap_at_an_end(channel->samples, channel->name));
     }
   for (const std::string_view name : {"displacement", "velocity", "force"})
     if (const Channel* channel = record.find(name)) add(held(record, channel->samples, name));
 
+  // What a logger lost, where the stamps tell and nothing was resampled.
+  if (!(record.sample_time > 0))
+    if (const LostSamples lost = lost_samples(record.time); lost.places > 0)
+      doubts.push_back(describe(lost) +
+                       ": the logger lost them; 'resample' in a dataset file fills them with "
+                       "straight lines");
+
   // What the motion makes implausible.
   if (!displacement) return doubts;
-  add(stuck_displacement(record, displacement->samples));
-  add(dead_displacement(record, displacement->samples));
+  const auto stuck = stuck_displacement(record, displacement->samples);
+  add(stuck ? stuck : dead_displacement(record, displacement->samples));
+  add(stuck_velocity(record, displacement->samples));
   add(wrong_scale(record, displacement->samples));
   const auto [low, high] = std::ranges::minmax(displacement->samples);
   if (!force || high <= low) return doubts;

@@ -16,6 +16,7 @@
 #include "dashpot/record/sources.h"
 #include "dashpot/record/stated_conditions.h"
 #include "dashpot/record/stretches.h"
+#include "dashpot/record/unit_doubts.h"
 
 namespace fs = std::filesystem;
 
@@ -525,14 +526,16 @@ class Loader {
 
   /// Which records look damaged, and how.
   void note_suspects() {
+    for (const Record& record : dataset_.records)
+      for (const std::string& why : doubts_about(record))
+        dataset_.suspects.push_back({record.name, why});
+    if (auto currents = doubt_about_currents(dataset_.records))
+      dataset_.suspects.push_back(std::move(*currents));
+
     constexpr std::size_t kShown = 2;
     std::vector<std::string> notes;
-    for (const Record& record : dataset_.records)
-      for (const std::string& why : doubts_about(record)) {
-        dataset_.suspects.push_back({record.name, why});
-        if (notes.size() < kShown)
-          notes.push_back(std::string(kSuspectNote) + record.name + ": " + why);
-      }
+    for (const auto& [record, why] : dataset_.suspects)
+      if (notes.size() < kShown) notes.push_back(std::string(kSuspectNote) + record + ": " + why);
     if (dataset_.suspects.size() > kShown)
       notes.back() += "; " + std::to_string(dataset_.suspects.size() - kShown) +
                       " more doubts ('dashpot inspect' lists them)";

@@ -7,6 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/columns.h"
+#include "dashpot/record/time_base.h"
 
 namespace dashpot {
 namespace {
@@ -126,14 +127,6 @@ RawTable without_repeated_stamps(RawTable table, std::size_t time) {
   return rows_of(table, kept);
 }
 
-double median_step(const std::vector<double>& t) {
-  std::vector<double> steps(t.size() - 1);
-  for (std::size_t k = 0; k + 1 < t.size(); ++k) steps[k] = t[k + 1] - t[k];
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
-}
-
 /// A counter that starts again (after 2^16 counts, a minute, a day): goes on counting. The period
 /// is the one that makes the step over the jump the usual one.
 void unwrap(RawTable& table, std::size_t time) {
@@ -144,7 +137,7 @@ void unwrap(RawTable& table, std::size_t time) {
   constexpr double kPeriods[] = {
       100,   256,     1000,     1024,  4096,   10000,        32768,       60,          3600,  65536,
       86400, 1000000, 16777216, 3.6e6, 8.64e7, 4294967296.0, 4294967.296, 4294.967296, 65.536};
-  const double usual = median_step(t);
+  const double usual = usual_step(t);
   const auto [low, high] = std::minmax_element(t.begin(), t.end());
   for (const double period : kPeriods) {
     // It must fill its period, and every jump back must be one usual step over it.
@@ -176,7 +169,7 @@ std::vector<Rows> runs_of(const std::vector<double>& t) {
   }
   if (!(least > 0) || most <= kGap * least) return {{0, t.size()}};
 
-  const double gap = kGap * median_step(t);
+  const double gap = kGap * usual_step(t);
   std::vector<Rows> runs;
   std::size_t first = 0;
   for (std::size_t k = 1; k < t.size(); ++k)

@@ -94,6 +94,26 @@ std::vector<double> interpolate(const std::vector<double>& from, const std::vect
   return out;
 }
 
+/// What stands below a stamp that runs backwards, and what to do with it.
+std::pair<std::string, std::string> told_of_return(std::span<const double> stamps, std::size_t at,
+                                                   const RawTable& table) {
+  const double step = std::abs(stamps[1] - stamps[0]);
+  if (std::abs(stamps[at] - stamps[0]) <= 1.5 * step)
+    return {", where another recording seems to begin", "give each recording a file of its own"};
+
+  // Rows that are there already: a buffer that was written twice.
+  const auto before = stamps.first(at);
+  const auto same = std::ranges::find(before, stamps[at]);
+  if (same == before.end()) return {"", "sort the rows, or leave out those that do not belong"};
+  const auto row = static_cast<std::size_t>(same - before.begin());
+  const bool repeats = std::ranges::all_of(table.columns, [&](const RawColumn& column) {
+    return column.values.size() <= at || column.values[row] == column.values[at];
+  });
+  if (!repeats) return {"", "sort the rows, or leave out those that do not belong"};
+  return {": the row is that of " + table.where(row) + " again",
+          "leave out the rows that are there twice"};
+}
+
 }  // namespace
 
 double uniform_step(std::span<const double> stamps) {
@@ -129,11 +149,48 @@ void require_increasing(std::span<const double> stamps, const RawTable& table) {
   for (std::size_t k = 1; k < stamps.size(); ++k) {
     if (stamps[k] > stamps[k - 1]) continue;
     const std::string now = format_number(stamps[k], 10), before = format_number(stamps[k - 1], 10);
-    throw Error(table.where(k),
-                stamps[k] == stamps[k - 1] ? "time " + now + " is repeated"
-                                           : "time runs backwards: " + now + " after " + before,
-                "time must increase; for a uniform test state its sample_rate in a dataset file");
+    if (stamps[k] == stamps[k - 1])
+      throw Error(table.where(k), "time " + now + " is repeated",
+                  "time must increase; where its digits are too few and no sample is missing, "
+                  "state its sample_rate in a dataset file");
+    const auto [what, right] = told_of_return(stamps, k, table);
+    throw Error(table.where(k), "time runs backwards: " + now + " after " + before + what,
+                "time must increase: " + right);
   }
+}
+
+double usual_step(std::span<const double> stamps) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < stamps.size(); ++k) steps.push_back(stamps[k] - stamps[k - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  return *middle;
+}
+
+LostSamples lost_samples(std::span<const double> stamps) {
+  constexpr double kAlike = 0.1;  // of a step
+  LostSamples lost;
+  if (stamps.size() < 3) return lost;
+  const double step = usual_step(stamps);
+  for (std::size_t k = 1; k < stamps.size(); ++k) {
+    const double steps = (stamps[k] - stamps[k - 1]) / step, whole = std::round(steps);
+    if (whole < 1 || std::abs(steps - whole) > kAlike) return {};
+    if (whole < 2) continue;
+    lost.samples += static_cast<std::size_t>(whole) - 1;
+    if (lost.places++ == 0) lost.first_behind = stamps[k - 1];
+  }
+  return lost;
+}
+
+std::string describe(const LostSamples& lost) {
+  if (lost.places == 0) return {};
+  const bool is_one = lost.samples == 1;
+  return std::to_string(lost.samples) + (is_one ? " sample is" : " samples are") + " missing" +
+         (is_one             ? ""
+          : lost.places == 1 ? " in one place"
+                             : " in " + std::to_string(lost.places) + " places") +
+         " by the time stamps, " + (lost.places > 1 ? "the first " : "") + "behind " +
+         format_number(lost.first_behind, 6) + " s";
 }
 
 void make_uniform(std::span<double> stamps, double start, double sample_time) {

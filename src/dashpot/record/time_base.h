@@ -13,8 +13,22 @@ namespace dashpot {
 /// the tolerance of a whole rate or of the printed digits becomes exactly that.
 double uniform_step(std::span<const double> stamps);
 
-/// Throws Error at the first stamp that is repeated or runs backwards. `table` gives its place.
+/// The median step; two stamps at least.
+double usual_step(std::span<const double> stamps);
+
+/// Throws Error at the first stamp that is repeated or runs backwards. `table` gives its place, and
+/// the columns that tell rows which are there twice.
 void require_increasing(std::span<const double> stamps, const RawTable& table);
+
+/// Samples that a logger lost: now and then a step is a multiple of the usual one.
+struct LostSamples {
+  std::size_t samples = 0, places = 0;
+  double first_behind = 0;  ///< the stamp before the first gap
+};
+/// None where steps differ in another way.
+LostSamples lost_samples(std::span<const double> stamps);
+/// "5 samples are missing in 2 places by the time stamps, the first behind 0.995 s"; "" for none.
+std::string describe(const LostSamples& lost);
 
 /// Each stamp becomes start + row * sample_time.
 void make_uniform(std::span<double> stamps, double start, double sample_time);

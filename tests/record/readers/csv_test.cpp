@@ -69,6 +69,93 @@ TEST_CASE("a row of units below the names") {
   CHECK(table.columns[1].name == "disp");
 }
 
+TEST_CASE("a row of units above the names, or in a comment beside them") {
+  for (const std::string head :
+       {"s;mm;kN\ntime;disp;force\n", "# units: s; mm; kN\ntime;disp;force\n",
+        "# units: [s]; [mm]; [kN]\n\ntime;disp;force\n----;----;----\n"}) {
+    CAPTURE(head);
+    const RawTable table = read_text(head + "0;1;2\n1;2;3\n");
+    CHECK(names(table) == std::vector<std::string>{"time", "disp", "force"});
+    CHECK(table.columns[1].unit == "mm");
+    CHECK(table.columns[2].unit == "kN");
+  }
+
+  // Names that have units are not given others.
+  CHECK(read_text("s;mm;kN\nt [s];x [m];F [N]\n0;1;2\n1;2;3\n").columns[1].unit.empty());
+}
+
+TEST_CASE("quoted names keep their line ends and quotes") {
+  const RawTable table = read_text(
+      "\"Time\n[s]\",\"Displacement\r\n(LVDT)\n[mm]\",\"F \"\"raw\"\" [kN]\",\"\",\"I\"\n"
+      "0,1,2,,3\n1,2,3,,4\n");
+  CHECK(names(table) == std::vector<std::string>{"Time [s]", "Displacement (LVDT) [mm]",
+                                                 "F \"raw\" [kN]", "", "I"});
+  CHECK(table.where(1).find(":6") != std::string::npos);
+
+  // A quote that none closes, as of inches, joins nothing: neither names nor rows.
+  const RawTable inches = read_text("t,x [\"],note\n0,1,\"\n1,2,\"\n2,3,\"\n");
+  CHECK(inches.columns[1].values == std::vector<double>{1, 2, 3});
+  CHECK(inches.columns[1].name == "x [\"]");
+}
+
+TEST_CASE("names in Latin-1 are told as the text they are") {
+  const RawTable table = read_text("t [\xB5s],x [\xB5m],a [m/s\xB2]\n0,1,2\n1,2,3\n");
+  CHECK(names(table) == std::vector<std::string>{"t [\u00b5s]", "x [\u00b5m]", "a [m/s\u00b2]"});
+}
+
+TEST_CASE("a row with NUL bytes is refused; one of nothing else is a row without numbers") {
+  const std::string none(40, '\0');
+  CHECK(contains(message_of([&] { read_text("t,x\n0,1\n1,2" + none + "\n2,3\n"); }),
+                 "run.csv:3: holds NUL bytes: a part of the row was lost"));
+  CHECK(read_text("t,x\n0,1\n1,2\n" + none).columns[0].bad->row == 2);
+}
+
+TEST_CASE("blanks part names from their units as well") {
+  const RawTable table = read_text("t [s]  x [mm]  F (N)\n0  1  2\n1  2  3\n");
+  CHECK(names(table) == std::vector<std::string>{"t [s]", "x [mm]", "F (N)"});
+}
+
+TEST_CASE("names that stand again are passed over; other names head another table") {
+  const std::string head = "time,disp,force\ns,mm,N\n", rows = "0,1,2\n1,2,3\n";
+  const RawTable again = read_text(head + rows + head + "2,3,4\n" + head + "3,4,5\n");
+  CHECK(again.columns[0].values == std::vector<double>{0, 1, 2, 3});
+  REQUIRE(again.notes.size() == 1);
+  CHECK(contains(again.notes[0], "run.csv:5 and once more: passed over"));
+
+  CHECK(contains(message_of([&] { read_text(head + rows + "\ntime,force,disp\ns,N,mm\n2,3,4\n"); }),
+                 "run.csv:8: belongs to another table, which line 6 ('time' ...) heads; give each "
+                 "table a file of its own"));
+  // Words below a table, or in it, head nothing.
+  CHECK(read_text(head + rows + "force limit,displacement limit,none\n").rows() == 3);
+  CHECK(read_text(head + rows + "paused,force,limit\n2,3,4\n").rows() == 4);
+}
+
+TEST_CASE("times of a clock in the ways that loggers write them") {
+  for (const auto& [first, second] :
+       {std::pair{"2026-11-23T10:05:07.25", "2026-11-23T10:05:07.75"},
+        std::pair{"2026-11-23 10:05:07.25+01:00", "2026-11-23 10:05:07.75+01:00"},
+        std::pair{"23.11.2026 10:05:07.25", "23.11.2026 10:05:07.75"},
+        std::pair{"23.11.26 10:05:07.25", "23.11.26 10:05:07.75"},
+        std::pair{"5/6/2026 10:05:07.25", "5/6/2026 10:05:07.75"},
+        std::pair{"11/23/2026 11:59:59.25 AM", "11/23/2026 11:59:59.75 AM"},
+        std::pair{"12:00:07.25 AM", "12:00:07.75 AM"}, std::pair{"10:05:07:250", "10:05:07:750"}}) {
+    CAPTURE(std::string(first));
+    const RawTable table =
+        read_text("time;x\n" + std::string(first) + ";1\n" + std::string(second) + ";2\n");
+    CHECK(table.columns[0].unit == "s");
+    CHECK(table.columns[0].values == std::vector<double>{0.25, 0.75});
+  }
+
+  // From noon to one o'clock, and over midnight, whatever the date's order.
+  const auto stamps = [](const std::string& first, const std::string& second) {
+    return read_text("time;x\n" + first + ";1\n" + second + ";2\n").columns[0].values;
+  };
+  CHECK(stamps("12:59:59 PM", "1:00:00 PM") == std::vector<double>{0, 1});
+  CHECK(stamps("5/6/2026 23:59:59", "5/7/2026 00:00:01") == std::vector<double>{0, 2});
+  for (const std::string none : {"10:05", "13:00:00 PM", "10:05:07:25", "10:05:07 CET"})
+    CHECK(read_text("time;x\n" + none + ";1\n" + none + ";2\n").columns[0].bad);
+}
+
 TEST_CASE("a column without a name, which counts the rows, moves no other") {
   const std::string rows = "0\t0.0\t1.5\n1\t0.1\t2.5\n2\t0.2\t3.5\n";
   for (const std::string head : {"\tt\tx\n", "t\tx\n"}) {
@@ -77,6 +164,12 @@ TEST_CASE("a column without a name, which counts the rows, moves no other") {
     CHECK(table.notes.size() == (head.front() == 't' ? 1 : 0));  // what is guessed is told
     CHECK(table.columns[2].values == std::vector<double>{1.5, 2.5, 3.5});
   }
+
+  // Rows that begin elsewhere are counted where a time stands beside them.
+  const RawTable later = read_text("t;x\n4000;0.5;7\n4001;0.6;8\n4002;0.7;6\n");
+  CHECK(names(later) == std::vector<std::string>{"", "t", "x"});
+  CHECK(later.notes.size() == 1);
+  CHECK(names(read_text("t;x\n4000;5;7\n4001;7;8\n4002;4;6\n")).front() == "t");
 
   // Numbers that count beside separators at the end are a time.
   const RawTable ended = read_text("t;x;F\n0;1.5;2;\n1;2.5;3;\n2;3.5;4;\n");
@@ -94,9 +187,23 @@ TEST_CASE("whole numbers in groups of three are no decimals") {
   CHECK(table.notes.front().starts_with("numbers are read with ',' between thousands"));
   CHECK(read_text("t;F\n0;987\n1;1.124\n2;-1.093\n").columns[1].values[1] == 1124);
 
+  // What is no whole number tells nothing of them.
+  for (const std::string none : {"nan", "inf", "1e5"})
+    CHECK(read_text("t;F\n0;" + none + "\n1;1.124\n").columns[1].values[1] == 1.124);
+
   // One number that is no group tells that they are decimals.
   CHECK(read_text("t\tF\n0\t987\n1\t1,124\n2\t1,09\n").columns[1].values[1] == 1.124);
   CHECK(read_text("t;F\n0,005;987\n0,010;1,124\n").columns[1].values[1] == 1.124);
+}
+
+TEST_CASE("numbers in groups of which the first lines do not tell are refused") {
+  std::string text = "t;F\n";
+  for (int k = 0; k < 400; ++k) text += std::to_string(k) + ";1.124\n";
+  CHECK(read_text(text).columns[1].values.back() == 1.124);
+  CHECK(contains(message_of([&] { read_text(text + "400;987\n"); }),
+                 "run.csv:2: '1.124' may be in thousands or have decimals"));
+  // One number with decimals tells, wherever it stands.
+  CHECK(read_text(text + "400;987\n401;0.5\n").columns[1].values.back() == 0.5);
 }
 
 TEST_CASE("an error of a sheet at the start of a row is no comment") {

@@ -53,6 +53,12 @@ TEST_CASE("a LabVIEW measurement without X has the step that its header states, 
   CHECK(tables[1].columns.at(1).values.at(1) == -67);
 }
 
+TEST_CASE("a LabVIEW measurement whose units are in Latin-1 is read in them") {
+  const TemporaryFolder folder;
+  const std::string text = without(example_lvm("One"), "Label\tmm", "Label\t\xB5m");
+  CHECK(read_lvm(folder.write("run.lvm", text)).at(0).columns.at(1).unit == "\u00b5m");
+}
+
 TEST_CASE("a LabVIEW measurement that is damaged is refused with its place") {
   const std::string good = example_lvm("One");
   CHECK(contains(refusal_of(good.substr(0, 60)), "ends inside a header"));

@@ -70,6 +70,24 @@ TEST_CASE("TDMS: the unit of X counts, starts of their own are told, and a step 
   CHECK(contains(message_of([&] { load_dataset({path}); }), "the file states steps of 1"));
 }
 
+TEST_CASE(
+    "TDMS: a channel on a time base of its own is passed over; a step that nobody set is none") {
+  const auto with_force_at = [](double increment) {
+    TdmsBytes set;
+    set.add<std::uint32_t>(1);
+    set.text("/'run'/'force'").add<std::uint32_t>(0xFFFFFFFF);
+    add_tdms_properties(set, {}, {{"wf_increment", increment}});
+    return read_tdms_bytes(example_tdms(false, false) + tdms_segment(kTdmsMetadata, set.bytes, ""))
+        .front();
+  };
+  const RawTable apart = with_force_at(0.02);
+  REQUIRE(apart.columns.size() == 1);
+  CHECK(apart.sample_time == 0.01);
+  CHECK(apart.notes.at(0) ==
+        "channel 'force' passed over: its wf_increment is 0.02 s, that of the recording 0.01 s");
+  check_example(with_force_at(1), 40);
+}
+
 TEST_CASE("TDMS: later segments say what changed, or nothing at all") {
   // The same list again without metadata, then one channel left out and a property set.
   TdmsBytes less;

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -61,56 +63,100 @@ struct ClockTime {
   bool dated = false;
 };
 
-/// "2026-11-23T10:05:07.25", "23.11.2026 10:05:07,25", "10:05:07". Two numbers alone ("10:05") may
-/// be hours or minutes, and 5/6/2026 a day of May or of June: they are none.
+/// Takes "2026-11-23T" or "23.11.2026 " off the front: the days since 1970. Nothing is taken of any
+/// other text, and of a date that is none.
+std::optional<double> take_date(std::string_view& text) {
+  std::string_view rest = text;
+  const auto first = take_digits(rest, 2, 4);
+  if (!first) return std::nullopt;
+  const bool iso = text.size() - rest.size() == 4 && take(rest, "-/");
+  const bool german = !iso && text.size() - rest.size() == 2 && take(rest, ".");
+  if (!iso && !german) return std::nullopt;
+
+  const auto month = take_digits(rest, 2, 2);
+  if (!month || !take(rest, iso ? "-/" : ".")) return std::nullopt;
+  const auto last = take_digits(rest, iso ? 2 : 4, iso ? 2 : 4);
+  if (!last || !take(rest, "T ")) return std::nullopt;
+  const std::chrono::year_month_day day{std::chrono::year(iso ? *first : *last),
+                                        std::chrono::month(unsigned(*month)),
+                                        std::chrono::day(unsigned(iso ? *last : *first))};
+  if (!day.ok()) return std::nullopt;
+  text = rest;
+  return double(std::chrono::sys_days(day).time_since_epoch().count());
+}
+
+/// Takes "5/6/2026 " off the front, which may be a day of May or of June: the time of day that
+/// follows counts by itself, and on behind midnight.
+void take_open_date(std::string_view& text) {
+  std::string_view rest = text;
+  if (!take_digits(rest, 1, 2) || !take(rest, "/.-") || !take_digits(rest, 1, 2) ||
+      !take(rest, "/.-") || !take_digits(rest, 2, 4) || !take(rest, " "))
+    return;
+  text = rest;
+}
+
+/// Takes "AM" or "PM" off the front, where it is there, into hours of 24; false for 13 PM.
+bool take_half_of_day(std::string_view& text, int& hours) {
+  std::string_view rest = trim(text);
+  const std::string half = lower(rest.substr(0, 2));
+  if (half != "am" && half != "pm") return true;
+  text = rest.substr(2);
+  if (hours < 1 || hours > 12) return false;
+  hours = hours % 12 + (half == "pm" ? 12 : 0);
+  return true;
+}
+
+/// Takes "Z" or "+01:00" off the front, where it is there: one clock has one zone.
+void take_zone(std::string_view& text) {
+  if (take(text, "Z")) return;
+  std::string_view rest = text;
+  if (!take(rest, "+-") || !take_digits(rest, 2, 2)) return;
+  take(rest, ":");
+  if (take_digits(rest, 2, 2)) text = rest;
+}
+
+/// "2026-11-23T10:05:07.25", "23.11.2026 10:05:07,25", "11/23/2026 10:05:07.25 PM", "10:05:07:250".
+/// Two numbers alone ("10:05") may be hours or minutes: they are none.
 std::optional<ClockTime> clock_time(std::string_view text) {
   ClockTime out;
-  double days = 0;
-
-  // The date: the year first, or the day with points.
-  if (std::string_view rest = text; const auto first = take_digits(rest, 2, 4)) {
-    const bool iso = text.size() - rest.size() == 4 && take(rest, "-/");
-    const bool german = !iso && text.size() - rest.size() == 2 && take(rest, ".");
-    if (iso || german) {
-      const auto month = take_digits(rest, 2, 2);
-      if (!month || !take(rest, iso ? "-/" : ".")) return std::nullopt;
-      const auto last = take_digits(rest, iso ? 2 : 4, iso ? 2 : 4);
-      if (!last || !take(rest, "T ")) return std::nullopt;
-      const std::chrono::year_month_day day{std::chrono::year(iso ? *first : *last),
-                                            std::chrono::month(unsigned(*month)),
-                                            std::chrono::day(unsigned(iso ? *last : *first))};
-      if (!day.ok()) return std::nullopt;
-      days = double(std::chrono::sys_days(day).time_since_epoch().count());
-      out.dated = true;
-      text = rest;
-    }
-  }
+  const std::optional<double> days = take_date(text);
+  out.dated = days.has_value();
+  if (!days) take_open_date(text);
 
   // The time of the day.
-  const auto hours = take_digits(text, 1, 2);
+  auto hours = take_digits(text, 1, 2);
   if (!hours || !take(text, ":")) return std::nullopt;
   const auto minutes = take_digits(text, 2, 2);
   if (!minutes || !take(text, ":")) return std::nullopt;
   const auto seconds = take_digits(text, 2, 2);
-  if (!seconds || *hours > 23 || *minutes > 59 || *seconds > 60) return std::nullopt;
-  if (take(text, ".,")) {
+  if (!seconds || *minutes > 59 || *seconds > 60) return std::nullopt;
+
+  // Behind a colon stand milliseconds or microseconds, all their digits.
+  const bool colon = text.starts_with(':');
+  if (take(text, ".,:")) {
     std::size_t end = 0;
     while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
     const auto part = parse_number("0." + std::string(text.substr(0, end)));
-    if (end == 0 || !part) return std::nullopt;
+    if (end == 0 || !part || (colon && end != 3 && end != 6)) return std::nullopt;
     out.fraction = *part;
     text.remove_prefix(end);
   }
-  take(text, "Z");
+
+  if (!take_half_of_day(text, *hours) || *hours > 23) return std::nullopt;
+  take_zone(text);
   if (!text.empty()) return std::nullopt;
-  out.seconds = 86400 * days + 3600 * *hours + 60 * *minutes + *seconds;
+  out.seconds = 86400 * days.value_or(0) + 3600 * *hours + 60 * *minutes + *seconds;
   return out;
 }
 
 /// Appends rows to a table, one line at a time.
 class RowAppender {
  public:
-  RowAppender(RawTable& table, const CsvDialect& dialect) : table_(table), dialect_(dialect) {}
+  RowAppender(RawTable& table, const CsvDialect& dialect)
+      : table_(table),
+        dialect_(dialect),
+        is_open_(dialect.is_open),
+        groups_(is_open_ ? table.columns.size() : 0) {}
 
   /// Clock times are counted in s from the first; a column that also holds plain numbers is none.
   void settle_clocks() {
@@ -129,6 +175,18 @@ class RowAppender {
     }
   }
 
+  /// Refuses "1,124" beside "987" in a column where nothing tells whether it is 1.124 or 1124. The
+  /// first lines, where they have both, tell that it is 1124.
+  void settle_groups() const {
+    if (!is_open_) return;
+    for (const Groups& groups : groups_)
+      if (!groups.first.empty() && groups.has_plain)
+        throw Error(table_.at_line(groups.line),
+                    "'" + groups.first +
+                        "' may be in thousands or have decimals, and no number of the file tells",
+                    "write numbers without signs between thousands");
+  }
+
   /// Says what stood beside the table and was not read.
   void note_beside() {
     if (noted_ > 0)
@@ -138,10 +196,24 @@ class RowAppender {
                                          : ""));
   }
 
+  /// Says where the names stood again.
+  void note_headings() {
+    if (headings_ > 0)
+      table_.notes.push_back("the names stand again at " + first_heading_ +
+                             (headings_ > 2
+                                  ? " and " + std::to_string(headings_ - 1) + " times more"
+                              : headings_ > 1 ? " and once more"
+                                              : "") +
+                             ": passed over, the rows below go on");
+  }
+
   void append(std::string_view text, std::size_t line) {
     if (is_comment(text)) return;
+    require_whole(text, line);
     split_cells(text, dialect_.separator, cells_);
+    if (is_heading(line)) return;
     require_cell_count(line);
+    if (is_open_) watch_groups(line);
     const std::size_t row = table_.rows();
     if (line != next_line_) table_.lines.emplace_back(row, line);
     next_line_ = line + 1;
@@ -149,6 +221,76 @@ class RowAppender {
   }
 
  private:
+  /// Whole numbers of three digits in a column, and the first with a sign before three digits.
+  struct Groups {
+    std::string first;
+    std::size_t line = 0;
+    bool has_plain = false;
+  };
+
+  void watch_groups(std::size_t line) {
+    for (std::size_t k = 0; k < std::min(cells_.size(), groups_.size()) && is_open_; ++k) {
+      const Grouping grouping = grouping_of(cells_[k], dialect_.decimal);
+      is_open_ = grouping != Grouping::Decimal;
+      groups_[k].has_plain |= grouping == Grouping::Without;
+      if (grouping == Grouping::Group && groups_[k].first.empty())
+        groups_[k].first = cells_[k], groups_[k].line = line;
+    }
+  }
+
+  /// Zeros stand where a disk or a logger lost what belongs there; a number before them may be cut.
+  /// A row of nothing else is one without numbers.
+  void require_whole(std::string_view text, std::size_t line) const {
+    constexpr std::string_view kNothing("\0 \t\r", 4);
+    if (text.find('\0') == std::string_view::npos ||
+        text.find_first_not_of(kNothing) == std::string_view::npos)
+      return;
+    throw Error(table_.at_line(line), "holds NUL bytes: a part of the row was lost",
+                "copy the file again from its source, or delete the row");
+  }
+
+  /// Whether the row holds the names of the table, or their units, once more. Throws Error at the
+  /// first numbers below other names, which belong to another table.
+  bool is_heading(std::size_t line) {
+    const bool begins_as_number =
+        !cells_.front().empty() &&
+        std::string_view("+-.,0123456789").find(cells_.front().front()) != std::string_view::npos;
+    if (begins_as_number && other_heading_.empty()) return false;
+
+    const bool has_number = std::ranges::any_of(cells_, [&](std::string_view cell) {
+      return number_of_cell(cell, dialect_.decimal, dialect_.thousands).has_value();
+    });
+    if (has_number && !other_heading_.empty())
+      throw Error(table_.at_line(line),
+                  "belongs to another table, which " + other_heading_ + " heads",
+                  "give each table a file of its own");
+    if (has_number) return false;
+
+    // The same names, or the units that stand below them, with their brackets.
+    std::vector<std::string> texts;
+    for (const std::string_view cell : cells_) texts.push_back(text_of_cell(cell));
+    while (texts.size() > dialect_.names.size() && texts.back().empty()) texts.pop_back();
+    texts.resize(std::max(texts.size(), dialect_.names.size()));
+    if (table_.named() && texts == dialect_.names) {
+      if (headings_++ == 0) first_heading_ = table_.at_line(line);
+      units_may_follow_ = true;
+      return true;
+    }
+    const auto holds = [](const std::string& text, const std::string& unit) {
+      return text.empty() == unit.empty() && text.find(unit) != std::string::npos;
+    };
+    if (std::exchange(units_may_follow_, false) && std::ranges::equal(texts, dialect_.units, holds))
+      return true;
+
+    // Other names: most of the texts are some.
+    const auto filled =
+        std::ranges::count_if(texts, [](const auto& text) { return !text.empty(); });
+    if (const std::size_t named = count_channel_names(cells_);
+        named >= 2 && 2 * named >= static_cast<std::size_t>(filled))
+      other_heading_ = "line " + std::to_string(line) + " ('" + texts.front() + "' ...)";
+    return false;
+  }
+
   void append_cell(RawColumn& column, std::size_t k, std::size_t row) {
     const std::string_view cell = k < cells_.size() ? cells_[k] : std::string_view();
     double value = number_or_nan(cell, dialect_);
@@ -211,7 +353,62 @@ class RowAppender {
   std::vector<std::string_view> cells_;
   std::size_t next_line_ = 0, given_ = 0, missing_ = 0, noted_ = 0;
   std::string first_note_;
+  std::size_t headings_ = 0;  ///< rows that name the columns again
+  std::string first_heading_, other_heading_;
+  bool units_may_follow_ = false;
   std::map<std::size_t, Clock> clocks_;  ///< by column
+  bool is_open_;                         ///< no number has told what stands between digits
+  std::vector<Groups> groups_;           ///< by column, while that is so
+};
+
+/// Lines of which those that a quoted line end has divided are one again.
+class WholeLines final : public Lines {
+ public:
+  explicit WholeLines(Lines& source) : source_(source) {}
+
+  std::optional<std::string_view> next() override {
+    if (!apart_.empty()) return give_apart();
+    const auto line = source_.next();
+    line_ = source_.line();
+    if (!line || line->find('"') == std::string_view::npos || !leaves_quote_open(*line))
+      return line;
+
+    // Take lines up to the one that closes the quote. A quote that none closes is a sign of inches,
+    // say, and a line that begins with a number is a row: then all stay as they are.
+    current_ = *line;
+    std::string whole = current_;
+    while (apart_.size() < kMostLines) {
+      const auto more = source_.next();
+      if (!more) break;
+      apart_.emplace_back(source_.line(), *more);
+      const std::string_view begin = trim(*more);
+      if (!begin.empty() && parse_number(begin.substr(0, 1))) break;
+      whole.append(" ").append(*more);
+      if (leaves_quote_open(whole)) continue;
+      line_ = source_.line();
+      apart_.clear();
+      current_ = std::move(whole);
+      break;
+    }
+    return current_;
+  }
+  std::size_t line() const override { return line_; }
+  double expected_lines() const override { return source_.expected_lines(); }
+
+ private:
+  static constexpr std::size_t kMostLines = 8;
+
+  std::string_view give_apart() {
+    line_ = apart_.front().first;
+    current_ = std::move(apart_.front().second);
+    apart_.pop_front();
+    return current_;
+  }
+
+  Lines& source_;
+  std::string current_;
+  std::deque<std::pair<std::size_t, std::string>> apart_;  ///< read, and not given yet
+  std::size_t line_ = 0;
 };
 
 /// Room for the rest of the file at once, so that growing does not hold every column twice.
@@ -263,9 +460,10 @@ bool is_csv(const fs::path&, std::string_view extension, std::string_view head) 
 
 std::vector<RawTable> read_csv(const fs::path& path) {
   LineSource source(path);
+  WholeLines lines(source);
   RawTable table;
   table.file = path.string();
-  read_lines(source, {}, table);
+  read_lines(lines, {}, table);
   std::vector<RawTable> tables;
   tables.push_back(std::move(table));
   return tables;
@@ -291,7 +489,9 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
     appender.append(head[k], numbers[k]);
   while (const auto line = source.next()) appender.append(*line, source.line());
   appender.settle_clocks();
+  appender.settle_groups();
   appender.note_beside();
+  appender.note_headings();
 
   drop_empty_columns(table);
   refuse_moved_columns(table, dialect);
@@ -305,10 +505,11 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
 
 TextTable read_text_table(const fs::path& path) {
   LineSource source(path);
+  WholeLines lines(source);
   TextTable table;
   std::vector<std::string_view> cells;
   char separator = ',';
-  while (const auto line = source.next()) {
+  while (const auto line = lines.next()) {
     if (is_comment(*line)) continue;
 
     // The first line names the columns and decides on the separator: the one that it has most of.
@@ -318,16 +519,17 @@ TextTable read_text_table(const fs::path& path) {
           separator = candidate;
     split_cells(*line, separator, cells);
     if (table.names.empty()) {
-      table.names.assign(cells.begin(), cells.end());
+      for (const std::string_view cell : cells) table.names.push_back(text_of_cell(cell));
       continue;
     }
 
     if (cells.size() < table.names.size())
-      throw Error(path.string() + ":" + std::to_string(source.line()),
+      throw Error(path.string() + ":" + std::to_string(lines.line()),
                   "has " + std::to_string(cells.size()) + " cells, the first line names " +
                       std::to_string(table.names.size()));
-    table.rows.emplace_back(cells.begin(), cells.end());
-    table.lines.push_back(source.line());
+    std::vector<std::string>& row = table.rows.emplace_back();
+    for (const std::string_view cell : cells) row.push_back(text_of_cell(cell));
+    table.lines.push_back(lines.line());
 
     // A decimal comma, where no comma separates: one number that can be read no other way tells.
     if (separator != ',' && std::ranges::any_of(cells, [](std::string_view cell) {

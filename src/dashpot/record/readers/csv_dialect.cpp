@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/record/channel_names.h"
@@ -61,9 +63,34 @@ bool holds_numbers(const Cells& cells, char decimal) {
   return numbers > 0 && 2 * numbers >= filled;
 }
 
+/// Text that is no UTF-8 is Latin-1.
+std::string utf8_of(std::string_view text) {
+  if (valid_utf8(text) == text) return std::string(text);
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0 | byte >> 6);
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return out;
+}
+
 std::string_view trim_right(std::string_view text) {
   while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
   return text;
+}
+
+/// Where the quote at `open` is closed; a doubled one is a part of what is quoted. npos where it is
+/// not.
+std::size_t closing_quote(std::string_view line, std::size_t open) {
+  std::size_t close = line.find('"', open + 1);
+  while (close != std::string_view::npos && close + 1 < line.size() && line[close + 1] == '"')
+    close = line.find('"', close + 2);
+  return close;
 }
 
 /// A separator and a decimal sign, and how well they explain the lines.
@@ -119,8 +146,12 @@ Guess try_dialect(const std::vector<std::string>& lines, char separator, char de
   return guess;
 }
 
+/// "mm" of "[mm]", and of the "units: mm" that may begin a line of them.
 std::string bare_unit(std::string_view cell) {
   cell = trim(cell);
+  if (const std::size_t colon = cell.find(':');
+      colon != std::string_view::npos && lower(cell).starts_with("unit"))
+    cell = trim(cell.substr(colon + 1));
   if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
     cell = cell.substr(1, cell.size() - 2);
   return std::string(trim(cell));
@@ -129,7 +160,7 @@ std::string bare_unit(std::string_view cell) {
 bool is_units_row(const Cells& cells) {
   bool any = false;
   for (const std::string_view cell : cells) {
-    const std::string unit = bare_unit(cell);
+    const std::string unit = text_of_cell(bare_unit(cell));
     if (unit.empty()) continue;
     if (!parse_unit(unit)) return false;
     any = true;
@@ -139,21 +170,33 @@ bool is_units_row(const Cells& cells) {
 
 /// A row of units of which one or some are unknown: most are known, and the line above names them.
 bool is_doubtful_units_row(const Cells& cells, const Cells& above) {
-  std::size_t known = 0, filled = 0, named = 0;
+  std::size_t known = 0, filled = 0;
   for (const std::string_view cell : cells) {
-    const std::string unit = bare_unit(cell);
+    const std::string unit = text_of_cell(bare_unit(cell));
     filled += !unit.empty();
     known += !unit.empty() && parse_unit(unit);
   }
-  for (const std::string_view cell : above) named += !recognise_channel(cell, "").channel.empty();
-  return known >= 1 && 2 * known >= filled && named >= 2;
+  return known >= 1 && 2 * known >= filled && count_channel_names(above) >= 2;
 }
 
-/// Two or more cells name channels: a heading, though columns behind them have no name.
-bool names_channels(const Cells& cells) {
-  return std::ranges::count_if(cells, [](std::string_view cell) {
-           return !recognise_channel(cell, "").channel.empty();
-         }) >= 2;
+/// A line that only parts the names from the numbers: "-----,-----".
+bool is_rule(std::string_view line) {
+  const auto has = [&](std::string_view text) { return line.find(text) != std::string_view::npos; };
+  return line.find_first_not_of("-=_+*|,; \t") == std::string_view::npos &&
+         (has("--") || has("==") || has("__"));
+}
+
+/// "x [mm]" is one name where blanks separate.
+void join_brackets(Cells& cells) {
+  Cells joined;
+  for (const std::string_view cell : cells) {
+    const bool opens = !cell.empty() && (cell.front() == '[' || cell.front() == '(');
+    if (opens && !joined.empty())
+      joined.back() = {joined.back().data(), cell.data() + cell.size()};
+    else
+      joined.push_back(cell);
+  }
+  cells = std::move(joined);
 }
 
 /// The cells of the last line before `before` that can head `columns` columns; its index or npos.
@@ -162,16 +205,17 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
   // Only the nearest line that holds something is a header: junk stands further up.
   for (std::size_t k = before; k-- > 0;) {
     const std::string_view line = strip_comment(lines[k], dialect.separator);
-    if (trim(line).empty()) continue;
+    if (trim(line).empty() || is_rule(line)) continue;
     split_cells(line, dialect.separator, cells);
+    if (dialect.separator == ' ' && cells.size() > columns) join_brackets(cells);
     if (cells.size() > columns && cells[columns].empty()) cells.resize(columns);
     if (cells.size() > columns && cells.front().empty()) cells.erase(cells.begin());
     Cells filled = cells;
     drop_trailing_empty(filled);
     if (filled.empty()) continue;
     const bool is_short = filled.size() + 1 < columns;
-    const bool heads =
-        !is_short || (dialect.separator != ' ' && (names_channels(filled) || is_units_row(filled)));
+    const bool heads = !is_short || (dialect.separator != ' ' &&
+                                     (count_channel_names(filled) >= 2 || is_units_row(filled)));
     const bool fits = filled.size() <= columns && heads && !holds_numbers(cells, dialect.decimal);
     return fits && (columns > 1 || cells.size() == 1) ? k : std::string::npos;
   }
@@ -179,23 +223,46 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
 }
 
 /// Whether the first column counts the lines, 0, 1, 2 ... or 1, 2, 3 ..., three at least, which no
-/// separator ends.
+/// separator ends; or 4000, 4001, 4002 ... where the second column goes up evenly as well, as a
+/// time does.
 bool counts_lines(const std::vector<std::string>& lines, const CsvDialect& dialect) {
   constexpr std::size_t kFewest = 3;
-  std::vector<double> counts;
+  constexpr double kEven = 1e-6;
+  std::vector<double> counts, next;
   Cells cells;
   for (std::size_t k = dialect.first_data_line; k < lines.size() && counts.size() < kFewest; ++k) {
     if (is_comment(lines[k])) continue;
     split_cells(lines[k], dialect.separator, cells);
-    if (cells.back().empty()) return false;
-    counts.push_back(number_of_cell(cells.front(), dialect.decimal, 0).value_or(-1));
+    if (cells.back().empty() || cells.size() < 2) return false;
+    counts.push_back(number_of_cell(cells[0], dialect.decimal, 0).value_or(-1));
+    next.push_back(number_of_cell(cells[1], dialect.decimal, 0).value_or(0));
   }
-  return counts.size() == kFewest && (counts[0] == 0 || counts[0] == 1) &&
-         counts[1] == counts[0] + 1 && counts[2] == counts[1] + 1;
+  if (counts.size() < kFewest || counts[0] < 0 || counts[1] != counts[0] + 1 ||
+      counts[2] != counts[1] + 1)
+    return false;
+
+  const double step = next[1] - next[0];
+  const bool is_time = step > 0 && std::abs(next[2] - next[1] - step) <= kEven * step;
+  return counts[0] == 0 || counts[0] == 1 || (counts[0] == std::floor(counts[0]) && is_time);
+}
+
+/// Whether a line that stands above the names holds their units: two at least, one for each name,
+/// none of which has a unit itself.
+bool heads_with_units(const Cells& units, const Cells& names) {
+  constexpr std::size_t kFewest = 2;
+  std::size_t measured = 0;
+  for (const std::string_view cell : units) {
+    const auto unit = parse_unit(text_of_cell(bare_unit(cell)));
+    measured += unit && unit->dimension != Dimension{};
+  }
+  return measured >= kFewest && units.size() == names.size() && is_units_row(units) &&
+         count_channel_names(names) >= 2 && std::ranges::all_of(names, [](std::string_view name) {
+           return recognise_channel(name, "").unit.empty();
+         });
 }
 
 /// Fills in names and units from the lines above the data: a line of names, with or without a line
-/// of units below it. Both stay empty where there is none.
+/// of units below or above it. Both stay empty where there is none.
 void read_header(const std::vector<std::string>& lines, std::size_t columns, CsvDialect& dialect) {
   dialect.names.assign(columns, "");
   dialect.units.assign(columns, "");
@@ -205,10 +272,13 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
 
   const bool units = is_units_row(cells);
   Cells above;
-  const std::size_t name_line = find_header(lines, dialect, at, columns, above);
-  if (name_line != std::string::npos && (units || is_doubtful_units_row(cells, above))) {
+  const std::size_t line_above = find_header(lines, dialect, at, columns, above);
+  const bool has_above = line_above != std::string::npos;
+  const bool units_above = has_above && !units && heads_with_units(above, cells);
+  if (units_above) std::swap(cells, above);
+  if (units_above || (has_above && (units || is_doubtful_units_row(cells, above)))) {
     for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
-      dialect.units[k] = bare_unit(cells[k]);
+      dialect.units[k] = text_of_cell(bare_unit(cells[k]));
     cells = above;
   }
 
@@ -219,26 +289,13 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
     std::ranges::rotate(dialect.units, dialect.units.end() - 1);
   }
   for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
-    dialect.names[k] = std::string(cells[k]);
-}
-
-/// What a number tells of the sign that was taken for the decimal one.
-enum class Grouping { Nothing, Without, Group, Decimal };
-
-/// "1,124" is a group, "0,5" and "1,09" are decimals; "987" would have none in either case.
-Grouping grouping_of(std::string_view cell, char decimal) {
-  if (!parse_number(cell, decimal)) return Grouping::Nothing;
-  const std::string_view digits = cell.substr(cell.find_first_not_of("+-"));
-  const bool has_zero = digits.front() == '0';
-  if (digits.find(decimal) == std::string_view::npos)
-    return digits.size() == 3 && !has_zero ? Grouping::Without : Grouping::Nothing;
-  const bool is_group = without_thousands(digits, other_sign(decimal), decimal).has_value();
-  return is_group && !has_zero ? Grouping::Group : Grouping::Decimal;
+    dialect.names[k] = text_of_cell(cells[k]);
 }
 
 /// Whether that sign stands between thousands: no number has it for a decimal one, and a column
-/// that has groups has numbers of three digits without one too.
-bool separates_thousands(const std::vector<std::string>& lines, const CsvDialect& dialect) {
+/// that has groups has numbers of three digits without one too. Nothing where no number tells.
+std::optional<bool> separates_thousands(const std::vector<std::string>& lines,
+                                        const CsvDialect& dialect) {
   std::vector<std::pair<bool, bool>> columns;  // whether each has groups, and numbers without
   Cells cells;
   for (std::size_t line = dialect.first_data_line; line < lines.size(); ++line) {
@@ -254,7 +311,8 @@ bool separates_thousands(const std::vector<std::string>& lines, const CsvDialect
       columns[k].second |= grouping == Grouping::Without;
     }
   }
-  return std::ranges::find(columns, std::pair{true, true}) != columns.end();
+  if (std::ranges::find(columns, std::pair{true, true}) != columns.end()) return true;
+  return std::nullopt;
 }
 
 /// "#N/A" at the start of a row of a sheet, which is no comment; English and German.
@@ -268,6 +326,24 @@ bool is_sheet_error(std::string_view line) {
 }
 
 }  // namespace
+
+Grouping grouping_of(std::string_view cell, char decimal) {
+  if (!parse_number(cell, decimal)) return Grouping::Nothing;
+  const std::string_view digits = cell.substr(cell.find_first_not_of("+-"));
+  const bool has_zero = digits.front() == '0';
+  if (digits.find(decimal) == std::string_view::npos) {
+    const bool is_whole = digits.find_first_not_of("0123456789") == std::string_view::npos;
+    return is_whole && digits.size() == 3 && !has_zero ? Grouping::Without : Grouping::Nothing;
+  }
+  const bool is_group = without_thousands(digits, other_sign(decimal), decimal).has_value();
+  return is_group && !has_zero ? Grouping::Group : Grouping::Decimal;
+}
+
+std::size_t count_channel_names(std::span<const std::string_view> cells) {
+  return static_cast<std::size_t>(std::ranges::count_if(cells, [](std::string_view cell) {
+    return !recognise_channel(text_of_cell(cell), "").channel.empty();
+  }));
+}
 
 bool is_comment(std::string_view line) {
   if (!line.empty() && line.front() >= '0' && line.front() <= '9') return false;
@@ -293,6 +369,28 @@ std::optional<double> number_of_cell(std::string_view cell, char decimal, char t
   return joined ? parse_number(*joined, decimal) : std::nullopt;
 }
 
+bool leaves_quote_open(std::string_view line) {
+  bool cell_begins = true;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (cell_begins && line[k] == '"') {
+      k = closing_quote(line, k);
+      if (k == std::string_view::npos) return true;
+      cell_begins = false;
+      continue;
+    }
+    const bool separates = std::string_view(",;\t").find(line[k]) != std::string_view::npos;
+    cell_begins = separates || (cell_begins && line[k] == ' ');
+  }
+  return false;
+}
+
+std::string text_of_cell(std::string_view cell) {
+  std::string text = utf8_of(cell);
+  for (std::size_t at = 0; (at = text.find("\"\"", at)) != std::string::npos; ++at)
+    text.erase(at, 1);
+  return text;
+}
+
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
   const bool blanks = separator == ' ';
   cells.clear();
@@ -306,7 +404,7 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
 
     // Its end: the next separator, behind the closing quote when it is quoted.
     const bool quoted = start < line.size() && line[start] == '"';
-    const std::size_t close = quoted ? line.find('"', start + 1) : std::string_view::npos;
+    const std::size_t close = quoted ? closing_quote(line, start) : std::string_view::npos;
     const std::size_t from = close == std::string_view::npos ? start : close + 1;
     const std::size_t end = std::min(
         blanks ? line.find_first_of(" \t", from) : line.find(separator, from), line.size());
@@ -332,7 +430,9 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
   if (best.data_lines == 0)
     throw NoTable(file, "no line holds numbers in columns",
                   "give a table: a line of names, then one line per sample");
-  if (separates_thousands(lines, best.dialect)) {
+  const std::optional<bool> groups = separates_thousands(lines, best.dialect);
+  best.dialect.is_open = !groups;
+  if (groups.value_or(false)) {
     best.dialect.thousands = best.dialect.decimal;
     best.dialect.decimal = other_sign(best.dialect.decimal);
   }
@@ -344,7 +444,7 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
     for (const std::string_view cell : cells)
       if (!parse_number(cell, best.dialect.decimal) &&
           number_of_cell(cell, best.dialect.decimal, 0))
-        best.dialect.thousands = other_sign(best.dialect.decimal);
+        best.dialect.thousands = other_sign(best.dialect.decimal), best.dialect.is_open = false;
   }
   read_header(lines, best.columns, best.dialect);
   return best.dialect;

@@ -119,7 +119,7 @@ class LvmFile {
     for (std::size_t k = 1; k < cells_.size(); ++k) {
       if (cells_[k] == kLvmX || cells_[k] == kLvmComment || cells_[k].empty()) continue;
       const bool has_unit = units != header_.end() && k <= units->second.size();
-      take(table, k, std::string(cells_[k]), has_unit ? units->second[k - 1] : "");
+      take(table, k, text_of_cell(cells_[k]), has_unit ? text_of_cell(units->second[k - 1]) : "");
       names_channels = true;
     }
     if (!names_channels) throw Error(here(), "names no channel", "names behind X_Value");

@@ -165,7 +165,8 @@ struct SheetLines::Parser final : XmlPart {
       throw Error(place_ + ":" + std::to_string(row_),
                   "has a cell in column " + std::to_string(column_ + 1) + "; no more than " +
                       std::to_string(kSheetColumns) + " columns are read",
-                  "delete what stands beside the table");
+                  "delete what stands beside the table, or save a wide one as CSV, which may have "
+                  "more columns");
     text_.append(column_ - written_, '\t');
     written_ = column_;
     text_ += cell;

@@ -275,28 +275,59 @@ RawColumn finished_column(const Channel& channel, const TdmsScale& scale, std::s
   return column;
 }
 
-/// The time base that waveforms state. Two that differ are none, and of frequencies there is none.
-void state_sample_time(RawTable& table, const std::vector<Channel>& channels) {
-  std::set<double> steps, offsets, starts;
+/// The step in s that a waveform states in its wf_increment; nothing where it states none, or one
+/// of frequencies, which is noted.
+std::optional<double> stated_step(const Channel& channel, std::vector<std::string>& notes) {
+  const TdmsProperties& properties = channel.object->properties;
+  const double step = number_of(properties, "wf_increment");
+  if (!(step > 0) || !std::isfinite(step)) return std::nullopt;
+  const std::string x_unit = text_of(properties, "wf_xunit_string");
+  const auto unit = parse_unit(x_unit.empty() ? "s" : x_unit);
+  if (unit && unit->dimension == Dimension{0, 0, 1, 0, 0}) return step * unit->factor;
+  notes.push_back("channel '" + channel.name + "': its wf_increment is in " + x_unit +
+                  ", and not taken as time base");
+  return std::nullopt;
+}
+
+/// The step that most channels state, of two the shorter, which is the table's sample time; those
+/// of another are passed over, since sample by sample they do not belong together. One of 1 s that
+/// stands beside others is what is there when nobody set it.
+void keep_one_time_base(RawTable& table, std::vector<Channel>& channels) {
+  constexpr double kUnset = 1, kAlike = 1e-9;
+  std::vector<std::optional<double>> steps;
+  for (const Channel& channel : channels) steps.push_back(stated_step(channel, table.notes));
+  if (std::ranges::any_of(steps, [&](const auto& step) { return step && *step != kUnset; }))
+    std::ranges::replace(steps, std::optional<double>(kUnset), std::optional<double>());
+
+  std::map<double, std::size_t> counts;
+  for (const auto& step : steps)
+    if (step) ++counts[*step];
+  if (counts.empty()) return;
+  const double common =
+      std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; })->first;
+  table.sample_time = common;
+
+  std::vector<Channel> kept;
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    if (!steps[k] || std::abs(*steps[k] / common - 1) <= kAlike)
+      kept.push_back(channels[k]);
+    else
+      table.notes.push_back("channel '" + channels[k].name + "' passed over: its wf_increment is " +
+                            format_number(*steps[k], 6) + " s, that of the recording " +
+                            format_number(common, 6) + " s");
+  }
+  channels = std::move(kept);
+}
+
+/// Notes waveforms that do not begin together.
+void note_beginnings(RawTable& table, const std::vector<Channel>& channels) {
+  std::set<double> offsets, starts;
   for (const Channel& channel : channels) {
     const TdmsProperties& properties = channel.object->properties;
-    const double step = number_of(properties, "wf_increment");
-    if (!(step > 0) || !std::isfinite(step)) continue;
-    const std::string x_unit = text_of(properties, "wf_xunit_string");
-    const auto unit = parse_unit(x_unit.empty() ? "s" : x_unit);
-    if (!unit || unit->dimension != Dimension{0, 0, 1, 0, 0}) {
-      table.notes.push_back("channel '" + channel.name + "': its wf_increment is in " + x_unit +
-                            ", and not taken as time base");
-      continue;
-    }
-    steps.insert(step * unit->factor);
+    if (!(number_of(properties, "wf_increment") > 0)) continue;
     offsets.insert(number_of(properties, "wf_start_offset"));
     starts.insert(number_of(properties, "wf_start_time"));
   }
-
-  if (steps.size() == 1) table.sample_time = *steps.begin();
-  if (steps.size() > 1)
-    table.notes.push_back("its channels state different wf_increment: none is taken as time base");
   if (offsets.size() > 1 || starts.size() > 1)
     table.notes.push_back("its channels begin at different times (" +
                           std::string(offsets.size() > 1 ? "wf_start_offset" : "wf_start_time") +
@@ -318,6 +349,7 @@ RawTable table_of_group(std::vector<Channel> channels, const TdmsProperties& gro
     pass_over(channel, channel.object->unread);
     return true;
   });
+  keep_one_time_base(table, channels);
   std::size_t length = common_length(channels);
   if (cut)
     for (const Channel& channel : channels)
@@ -341,7 +373,7 @@ RawTable table_of_group(std::vector<Channel> channels, const TdmsProperties& gro
       used.push_back(channel);
     }
   }
-  state_sample_time(table, used);
+  note_beginnings(table, used);
   return table;
 }
 
