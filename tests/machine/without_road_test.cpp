@@ -107,6 +107,7 @@ TEST_CASE("without a road: a half car, each of whose tyres has a road of its own
       "  - {kind: ground, at: rear, class: C, speed: 20 m/s}\n"
       "sensors:\n"
       "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+      "  - {channel: pitch, quantity: velocity, at: pitch}\n"
       "  - {channel: front, quantity: acceleration, at: front_wheel, noise: 0.05}\n"
       "  - {channel: rear, quantity: acceleration, at: rear_wheel, noise: 0.05}\n"
       "  - {channel: level_front, quantity: deflection, at: front, noise: 0.2 mm}\n"
@@ -120,6 +121,7 @@ TEST_CASE("without a road: a half car, each of whose tyres has a road of its own
   InPlantSetup known = setup;
   known.unknown.clear();
   known.known.insert(known.known.end(), truth.begin(), truth.end());
+  known.sensors[1].noise = 5e-3;
   const InPlantReport report = identify_in_plant(
       find_law("tanh_kwok"), setup,
       recordings_of(virtual_campaign(
@@ -135,6 +137,15 @@ TEST_CASE("without a road: a half car, each of whose tyres has a road of its own
     CHECK_CLOSE(report.plant[k].value, truth[k].second, 0.06, 0);
     CHECK(report.plant[k].high - report.plant[k].low < 0.15 * truth[k].second);
   }
+
+  // What was not stated of a sensor is found in the unit of its coordinate; no interval goes beyond
+  // where it was looked for.
+  const auto noise = std::ranges::find(report.nuisances, "noise of pitch", &FittedParameter::name);
+  REQUIRE(noise != report.nuisances.end());
+  CHECK(noise->unit == "rad/s");
+  CHECK_CLOSE(noise->value, 5e-3, 0.1, 0);
+  for (const FittedParameter& p : report.nuisances)
+    if (p.name.ends_with("memory")) CHECK(p.high <= 5);
   REQUIRE(report.traces.front().dampers.size() == 2);
   CHECK(report.traces.front().dampers[1].strut == "rear");
 }

@@ -161,11 +161,12 @@ void SpectralLikelihood::seek_noise(double force) {
     seek(name + ", memory", "s", memory, e == 0 ? sample_time_ : kParted,
          e == 0 ? kParted : kSlowest);
   }
+  const Plant plant = make_plant(*setup_->model, setup_->known);
   for (std::size_t s = 0; s < setup_->sensors.size(); ++s) {
     const PlantSensor& sensor = setup_->sensors[s];
     const auto place = [s](ObserverNoise& n) { return &n.sensors[s]; };
     if (sensor.noise == 0)
-      seek("noise of " + sensor.channel, unit_of(sensor.place.quantity), place,
+      seek("noise of " + sensor.channel, unit_of(sensor.place, plant), place,
            first_.sensors[s] / kWidestBand, first_.sensors[s] * kWidestBand);
   }
   if (unmeasured_road(*setup_)->roughness == 0)

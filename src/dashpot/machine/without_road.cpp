@@ -153,14 +153,17 @@ Covariance spread_of(const SpectralLikelihood& likelihood, const MostLikely& fou
   return spread;
 }
 
-/// Logarithms are normal, not the numbers.
-void mend_intervals(InPlantReport& report) {
-  for (FittedParameter& p : report.nuisances) {
-    if (p.name.starts_with("delay")) continue;
+/// Of noise the logarithms are normal, not the numbers; and nothing is looked for beyond the
+/// bounds.
+void mend_intervals(const SpectralLikelihood& likelihood, InPlantReport& report) {
+  for (std::size_t k = 0; k < likelihood.size(); ++k) {
+    if (!likelihood.is_noise(k)) continue;
+    FittedParameter& p =
+        *std::ranges::find(report.nuisances, likelihood.name(k), &FittedParameter::name);
     if (p.at_bound) p.weak = false;
     const double half = (p.high - p.low) / 2 / p.value;
-    p.low = p.value * std::exp(-half);
-    p.high = p.value * std::exp(half);
+    p.low = std::max(p.value * std::exp(-half), std::exp(likelihood.lower()[k]));
+    p.high = std::min(p.value * std::exp(half), std::exp(likelihood.upper()[k]));
   }
 }
 
@@ -260,7 +263,7 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
     report.message = found.converged ? "most likely" : "still rising after all iterations";
     const Covariance spread = spread_of(likelihood, found);
     add_parameters(likelihood, found.x, spread, report);
-    mend_intervals(report);
+    mend_intervals(likelihood, report);
     add_warnings(likelihood, spread, report);
   }
   return likelihood.setup_at(found.x);
