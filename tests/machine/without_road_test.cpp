@@ -93,6 +93,20 @@ TEST_CASE("without a road: masses, tyre and force of a damper of another structu
   }
 }
 
+TEST_CASE("without a road: a law that has no spring is told of the damper's" *
+          doctest::test_suite("long")) {
+  // spencer1997 is a spring of some 4 N/mm too, for which tanh_guo can take the car's alone.
+  const InPlantReport report =
+      identify_in_plant(find_law("tanh_guo"), unmeasured_car(), spencer_rides(20), {});
+  REQUIRE(report.model);
+  CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    return contains(warning, "spring") &&
+           contains(warning, "intervals of the plant reach to where its numbers go with it");
+  }));
+  CHECK(report.plant[0].value < 370);
+  CHECK(report.plant[0].high > 370);
+}
+
 TEST_CASE("without a road: a half car, each of whose tyres has a road of its own" *
           doctest::test_suite("long")) {
   const InPlantSetup setup = parse_in_plant_setup(

@@ -166,7 +166,7 @@ files:
 TEST_CASE("a stated column may be named without the unit in brackets behind it") {
   const auto loaded = [](const std::string& header) {
     const TemporaryFolder folder;
-    folder.write("a.csv", header + "\n0,0,1\n0.1,2,3\n0.2,1,2\n");
+    folder.write("a.csv", header + "\n0,0,1\n0.1,2,3\n0.2,1,2\n0.3,0,1\n0.4,1,2\n");
     folder.write("dataset.yaml",
                  "files:\n  - match: a.csv\n    time: {column: T}\n    channels:\n"
                  "      displacement: {column: Way}\n      force: {column: Cell (upper)}\n");
@@ -177,7 +177,7 @@ TEST_CASE("a stated column may be named without the unit in brackets behind it")
   CHECK_CLOSE(record.channel("displacement").samples[1], 2e-3, 1e-12, 0);
   CHECK_CLOSE(record.channel("force").samples[1], 3000, 1e-12, 0);
 
-  // The whole name goes before; one that two columns have is none.
+  // One that two columns have is none.
   CHECK(has(message_of([&] { loaded("T [ms],Way (mm),Way [in],Cell (upper) [kN]"); }),
             "has no column 'Way' for displacement"));
 }

@@ -59,6 +59,16 @@ void put_end_columns(PlantAtLine& plant, std::size_t coordinates, std::size_t en
   }
 }
 
+/// The largest of a quantity of all motions, by its size.
+double largest_of(const std::vector<RiddenRecording>& rides, double DamperInput::* quantity) {
+  double largest = 0;
+  for (const RiddenRecording& ridden : rides)
+    for (const std::vector<DamperInput>& motion : ridden.motions)
+      for (const DamperInput& input : motion)
+        largest = std::max(largest, std::abs(input.*quantity));
+  return largest;
+}
+
 /// Least squares of real coefficients over whitened lines, and the lines without what they explain.
 class EndTerms {
  public:
@@ -102,9 +112,9 @@ class EndTerms {
 SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
                                        const std::vector<RiddenRecording>& rides,
                                        const LawUnknowns& law, const std::vector<double>& plant,
-                                       const ObserverNoise& first, double force)
+                                       const ObserverNoise& first, double force, bool has_more)
     : setup_(&setup), rides_(&rides), law_(&law), first_(first) {
-  constexpr double kMostDelay = 20, kOfSampleRate = 0.4, kOfWaves = 0.9;
+  constexpr double kMostDelay = 20, kOfSampleRate = 0.4, kOfWaves = 0.9, kMostBeside = 10;
   sample_time_ = rides.front().recording->sample_time;
 
   // Up to where road and plant are what they are taken for, and the damper's force changes no
@@ -140,6 +150,15 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
   }
   first_noise_ = lower_.size();
   seek_noise(force);
+  first_more_ = lower_.size();
+  if (has_more) {
+    more_ = {.stiffness = force / largest_of(rides, &DamperInput::displacement),
+             .damping = force / largest_of(rides, &DamperInput::velocity)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      lower_.push_back(-kMostBeside);
+      upper_.push_back(kMostBeside);
+    }
+  }
   for (const RiddenRecording& ridden : rides) prepared_.push_back(ride_of(ridden));
 }
 
@@ -203,6 +222,7 @@ std::vector<double> SpectralLikelihood::start(const std::vector<double>& plant,
   for (const std::size_t s : delays_) x.push_back(setup_->sensors[s].delay / sample_time_);
   ObserverNoise noise = first_;
   for (const Sought& one : sought_) x.push_back(std::log(*one.place(noise)));
+  x.resize(size());  // nothing beside the law
   return x;
 }
 
@@ -281,7 +301,13 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
   spectra.covariance.assign(lines * m * m, 0);
   std::vector<Complex> columns(lines * m * ends), whitened(m * ends), shows(m), factor, shown;
   EndTerms terms(ends);
-  PlantAtLine at(plant, setup, force.stand_ins);
+  std::vector<StandIn> stand_ins = force.stand_ins;
+  for (StandIn& one : stand_ins)
+    if (first_more_ < size()) {
+      one.stiffness += more_.stiffness * x[first_more_];
+      one.damping += more_.damping * x[first_more_ + 1];
+    }
+  PlantAtLine at(plant, setup, stand_ins);
   const double scale = sample_time_ / std::sqrt(ride.duration);
   for (std::size_t l = 0; l < lines; ++l) {
     const std::size_t line = ride.first + l;
@@ -351,6 +377,7 @@ std::vector<LawUnknowns::Coefficient> SpectralLikelihood::law_coefficients(
 
 std::string SpectralLikelihood::name(std::size_t k) const {
   if (k < plant_unknowns()) return setup_->unknown[k].name;
+  if (k >= first_more_) return k == first_more_ ? "spring" : "dashpot";
   if (k >= first_noise_) return sought_[k - first_noise_].name;
   if (k >= first_delay_) return "delay of " + setup_->sensors[delays_[k - first_delay_]].channel;
   return name_in_law(*this, plant_unknowns(), k, size());
@@ -358,15 +385,17 @@ std::string SpectralLikelihood::name(std::size_t k) const {
 
 double SpectralLikelihood::size_at(std::size_t k, std::span<const double> x) const {
   if (k < plant_unknowns()) return plant_[k];
+  if (k >= first_more_) return k == first_more_ ? more_.stiffness : more_.damping;
   return k >= first_noise_ ? std::exp(x[k]) : sample_time_;
 }
 
 FittedParameter SpectralLikelihood::described(std::size_t k, std::span<const double> x) const {
   FittedParameter p{.name = name(k), .unit = "s", .meaning = {}, .value = size_at(k, x)};
-  if (k < first_noise_) p.value *= x[k];
+  if (!is_noise(k)) p.value *= x[k];
   const double margin = kAtBound * std::max(1.0, std::abs(x[k]));
   p.at_bound = x[k] <= lower_[k] + margin || x[k] >= upper_[k] - margin;
-  if (k >= first_noise_) p.unit = sought_[k - first_noise_].unit;
+  if (is_noise(k)) p.unit = sought_[k - first_noise_].unit;
+  if (k >= first_more_) p.unit = k == first_more_ ? "N/m" : "N*s/m";
   if (k >= plant_unknowns()) return p;
   const auto& rows = setup_->model->parameters;
   const ParameterRow& row = rows[row_named(rows, p.name, setup_->model->name, "plant")];
@@ -437,7 +466,7 @@ std::vector<double> residual_rows(const Whitened& at, std::size_t m) {
 }
 
 /// The rows of one unknown in one ride, by a difference; the other way where the bounds or the law
-/// leave no room. Empty: neither way.
+/// leave no room. Empty: neither way; of one that is held, nothing changes.
 std::vector<double> column_rows(const SpectralLikelihood& likelihood, std::span<const double> x,
                                 std::size_t k, std::size_t ride, const Whitened& at) {
   constexpr double kStep = 1e-5;
@@ -445,6 +474,7 @@ std::vector<double> column_rows(const SpectralLikelihood& likelihood, std::span<
   const double length = kStep * std::max(1.0, std::abs(x[k]));
   const bool upward = x[k] + length <= likelihood.upper()[k];
   std::vector<double> moved(x.begin(), x.end()), rows(lines * rows_per_line(m));
+  if (likelihood.is_held(k)) return rows;
   std::vector<Complex> change(m * m);
   SpectralLikelihood::Spectra beside;
   for (const double step : {upward ? length : -length, upward ? -length : length}) {

@@ -39,14 +39,14 @@ struct RiddenRecording {
 /// Delays are exact.
 ///
 /// The unknowns: the plant's numbers, each in the size at which it starts; the law's; delays of
-/// sensors, in samples; logarithms of what is uncertain and was not stated. All that it is made
-/// from must outlive it.
+/// sensors, in samples; logarithms of what is uncertain and was not stated; where they are asked
+/// for, a spring and a dashpot beside the law. All that it is made from must outlive it.
 class SpectralLikelihood final : public InPlantUnknowns {
  public:
   /// force: half span of the damper's, N, for the limits of the law's error.
   SpectralLikelihood(const InPlantSetup& setup, const std::vector<RiddenRecording>& rides,
                      const LawUnknowns& law, const std::vector<double>& plant,
-                     const ObserverNoise& first, double force);
+                     const ObserverNoise& first, double force, bool has_more = false);
 
   /// The unknowns of these numbers of the plant, SI, of the law, and of the first noise.
   std::vector<double> start(const std::vector<double>& plant, const std::vector<double>& law) const;
@@ -78,7 +78,11 @@ class SpectralLikelihood final : public InPlantUnknowns {
   ObserverNoise noise(std::span<const double> x) const;
   /// The setup with all that x says: the plant's numbers, delays, noise and road.
   InPlantSetup setup_at(std::span<const double> x) const;
-  bool is_noise(std::size_t k) const { return k >= first_noise_; }
+  bool is_noise(std::size_t k) const { return k >= first_noise_ && k < first_more_; }
+  /// A spring or a dashpot beside the law, which start at 0; from here on it stays there.
+  std::size_t first_more() const { return first_more_; }
+  void hold_at_zero(std::size_t k) { lower_[k] = upper_[k] = 0; }
+  bool is_held(std::size_t k) const { return lower_[k] == upper_[k]; }
 
   std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
   bool is_of_law(std::size_t k) const override;
@@ -114,8 +118,9 @@ class SpectralLikelihood final : public InPlantUnknowns {
   std::vector<double> plant_;  ///< sizes
   double sample_time_, highest_;
   std::vector<PlantInputPlace> inputs_;
-  std::vector<std::size_t> delays_;        ///< sensors whose delay is an unknown
-  std::size_t first_delay_, first_noise_;  ///< places among the unknowns
+  std::vector<std::size_t> delays_;                     ///< sensors whose delay is an unknown
+  std::size_t first_delay_, first_noise_, first_more_;  ///< places among the unknowns
+  StandIn more_ = {};                                   ///< sizes of what stands beside the law
   std::vector<Sought> sought_;
   std::vector<double> lower_, upper_;
   std::vector<Ride> prepared_;

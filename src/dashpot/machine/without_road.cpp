@@ -17,6 +17,7 @@
 #include "dashpot/machine/plant_start.h"
 #include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/spectral_likelihood.h"
+#include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
@@ -167,6 +168,83 @@ void mend_intervals(const SpectralLikelihood& likelihood, InPlantReport& report)
   }
 }
 
+/// The share of what is known of an unknown for which no number of the law can stand.
+double share_beside_law(const SpectralLikelihood& likelihood, const LikelihoodSlopes& slopes,
+                        std::size_t k) {
+  constexpr double kRidge = 1e-9;
+  const std::size_t n = likelihood.size();
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < n; ++i)
+    if (likelihood.is_of_law(i) && slopes.information[i * n + i] > 0) others.push_back(i);
+
+  // Each scaled to an information of 1, so that `right` holds cosines.
+  const auto scaled = [&](std::size_t i, std::size_t j) {
+    return slopes.information[i * n + j] /
+           std::sqrt(slopes.information[i * n + i] * slopes.information[j * n + j]);
+  };
+  const std::size_t m = others.size();
+  std::vector<double> matrix(m * m), right(m), solution(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    right[i] = scaled(others[i], k);
+    for (std::size_t j = 0; j < m; ++j)
+      matrix[i * m + j] = scaled(others[i], others[j]) + (i == j ? kRidge : 0);
+  }
+  if (!solve_positive_definite(matrix, right, solution)) return 0;
+  double share = 1;
+  for (std::size_t i = 0; i < m; ++i) share -= right[i] * solution[i];
+  return share;
+}
+
+/// What a spring or a dashpot beside the law, which the law cannot make, would do to the plant's
+/// numbers: their intervals reach to where these go, and a warning says so where it matters.
+void ask_for_more(SpectralLikelihood& more, std::vector<double> x, const InPlantOptions& options,
+                  InPlantReport& report) {
+  constexpr double kOwnShare = 0.01, kChance = 0.005;
+  const std::size_t n = more.size();
+  const MostLikely before = most_likely(more, x, 0, options.threads, options.monitor);
+  if (!before.slopes.finite) return;
+  bool asks = false;
+  for (std::size_t k = more.first_more(); k < n; ++k)
+    if (share_beside_law(more, before.slopes, k) > kOwnShare)
+      asks = true;
+    else
+      more.hold_at_zero(k);
+  if (!asks) return;
+
+  const MostLikely found =
+      most_likely(more, std::move(x), options.iterations, options.threads, options.monitor);
+  if (!found.slopes.finite) return;
+  const Covariance spread = spread_of(more, found);
+  const auto half_of = [&](std::size_t k, double widths) {
+    const double size[] = {more.size_at(k, found.x)};
+    return widths * std::sqrt(spread.variance(k, size));
+  };
+
+  // The plant's intervals, to where they are with it.
+  constexpr double kWider = 1.5;
+  bool matters = false;
+  for (std::size_t k = 0; k < report.plant.size(); ++k) {
+    FittedParameter& p = report.plant[k];
+    const double value = more.described(k, found.x).value, half = half_of(k, kNormal95),
+                 before_it = p.high - p.low;
+    p.low = std::min(p.low, value - half);
+    p.high = std::max(p.high, value + half);
+    matters |= p.high - p.low > kWider * before_it;
+  }
+  for (std::size_t k = more.first_more(); k < n; ++k) {
+    const FittedParameter p = more.described(k, found.x);
+    const bool shows = std::abs(p.value) > half_of(k, normal_quantile(1 - kChance));
+    if (more.is_held(k) || (!shows && !matters)) continue;
+    const double half = half_of(k, kNormal95);
+    report.warnings.push_back(
+        (shows ? "beside this law the damper shows a " + p.name + " of " + format_number(p.value, 3)
+               : "this law has no " + p.name + ", and nothing tells whether the damper has one: ") +
+        (shows ? " " + p.unit + " (" : "") + format_number(p.value - half, 3) + " ... " +
+        format_number(p.value + half, 3) + (shows ? ")" : " " + p.unit) +
+        ": intervals of the plant reach to where its numbers go with it; try a law that makes it");
+  }
+}
+
 /// Sensors one sample ahead, before and behind what was fitted, and the damper as it is observed.
 void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise& noise,
                 const std::vector<PlantRecording>& recordings, InPlantReport& report) {
@@ -265,6 +343,8 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
     add_parameters(likelihood, found.x, spread, report);
     mend_intervals(likelihood, report);
     add_warnings(likelihood, spread, report);
+    SpectralLikelihood more(task.setup, rides, unknowns, point.plant, point.noise, force, true);
+    ask_for_more(more, more.start(point.plant, point.law), options, report);
   }
   return likelihood.setup_at(found.x);
 }
