@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,13 @@ double worst_of(const InPlantFit& fit) {
   for (const SensorFigures& s : fit.report.sensors)
     share = std::max(share, 100 * (std::isnan(s.held_back) ? s.training : s.held_back) / s.rms);
   return fit.report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
+}
+
+/// By which models are listed: what could be fitted, then what lacks nothing that is known of, then
+/// the error.
+std::tuple<bool, bool, double> place_of(const InPlantFit& fit) {
+  const double worst = worst_of(fit);
+  return {!std::isfinite(worst), !fit.report.lacks.empty(), worst};
 }
 
 /// Models are named: none is usual inside a plant.
@@ -225,6 +233,7 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
 std::string remark_of(const InPlantFit& fit) {
   if (fit.report.status != FitReport::Status::Converged) return fit.report.message;
   if (!fit.was_asked_for) return "not asked for: the others learnt along it";
+  if (!fit.report.lacks.empty()) return "lacks a " + fit.report.lacks + " that the damper shows";
   return fit.report.along.empty() ? "" : "learnt along " + fit.report.along;
 }
 
@@ -259,9 +268,13 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
 
   // The models beside each other, where there are several.
   if (fits.size() > 1) {
-    DocumentTable laws{.title = "Models, by the worst sensor on the time held back",
-                       .columns = {{"model"}, {"error %", true}, {"CPU s", true}, {"remark"}},
-                       .rows = {}};
+    const bool lacks =
+        std::ranges::any_of(fits, [](const InPlantFit& fit) { return !fit.report.lacks.empty(); });
+    DocumentTable laws{
+        .title = std::string(lacks ? "Models, first those without a known lack, " : "Models, ") +
+                 "by the worst sensor on the time held back",
+        .columns = {{"model"}, {"error %", true}, {"CPU s", true}, {"remark"}},
+        .rows = {}};
     for (const InPlantFit& fit : fits)
       laws.rows.push_back({fit.model, format_number(worst_of(fit), 3),
                            format_number(fit.report.seconds, 3), remark_of(fit)});
@@ -370,7 +383,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
                          .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
   std::vector<InPlantFit> fits = identify_in_plant(settings.fit.models, setup, recordings, options);
-  std::ranges::stable_sort(fits, {}, worst_of);
+  std::ranges::stable_sort(fits, {}, place_of);
 
   // What came out of it.
   const Document document = in_plant_document(fits, setup, console);

@@ -235,6 +235,7 @@ void ask_for_more(SpectralLikelihood& more, std::vector<double> x, const InPlant
     const FittedParameter p = more.described(k, found.x);
     const bool shows = std::abs(p.value) > half_of(k, normal_quantile(1 - kChance));
     if (more.is_held(k) || (!shows && !matters)) continue;
+    if (shows) report.lacks = p.name;
     const double half = half_of(k, kNormal95);
     report.warnings.push_back(
         (shows ? "beside this law the damper shows a " + p.name + " of " + format_number(p.value, 3)
