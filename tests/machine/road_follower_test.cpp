@@ -88,6 +88,13 @@ TEST_CASE("a road that follows: the channel that it makes is what the rear tyre 
                              "half.yaml")
             .inputs[1]
             .later == doctest::Approx(0.14));
+  CHECK(contains(message_of([&] {
+                   parse_in_plant_setup(
+                       followed_with("{channel: front_tyre_road, kind: ground, at: front}",
+                                     "{kind: ground, at: front, class: C, speed: 20 m/s}"),
+                       "half.yaml");
+                 }),
+                 "which is no channel of a road; class and speed here too"));
   const std::string written = format_json(to_json(setup));
   CHECK(contains(written, "\"follows\": \"front_tyre_road\""));
   CHECK(format_json(to_json(parse_in_plant_setup(written, "again.json"))) == written);

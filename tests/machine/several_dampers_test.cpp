@@ -320,6 +320,8 @@ TEST_CASE("several dampers: what cannot be is refused, with what would be right"
   both.inputs[0].road = RoadPrior{.roughness = 256e-6, .speed = 10};
   CHECK(contains(message_of([&] { require_setup(both); }),
                  "those that nothing measures differ in class or speed"));
+  CHECK(contains(wrong(measured, "{kind: ground, at: rear, follows: front, delay: 0.14 s}"),
+                 "which is no channel of a road; follows: the channel"));
 
   // Each damper is watched, but no road that follows another one.
   CHECK(message_of([&] { require_watchable(half_car(), {}); }).empty());

@@ -43,14 +43,19 @@ std::vector<PlantRecording> recordings_of(const std::vector<VirtualRide>& rides)
   return recordings;
 }
 
-/// Two rides of a car whose truth is 387 kg, 295.2 N/mm and spencer1997.
+/// Two rides of a plant, which has these numbers in truth, with spencer1997 in each strut.
+std::vector<PlantRecording> rides_of(InPlantSetup plant, const NamedValues& truth, double seconds,
+                                     std::uint64_t seed = 31) {
+  plant.unknown.clear();
+  plant.known.insert(plant.known.end(), truth.begin(), truth.end());
+  return recordings_of(virtual_campaign(plant, load_parameters("spencer1997"),
+                                        {.duration = seconds,
+                                         .levels = {0, 1},
+                                         .road = "iso8608,class=C,speed=20m/s",
+                                         .seed = seed}));
+}
 std::vector<PlantRecording> spencer_rides(double seconds) {
-  InPlantSetup truth = unmeasured_car();
-  truth.unknown.clear();
-  truth.known.insert(truth.known.end(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}});
-  return recordings_of(virtual_campaign(
-      truth, load_parameters("spencer1997"),
-      {.duration = seconds, .levels = {0, 1}, .road = "iso8608,class=C,speed=20m/s", .seed = 31}));
+  return rides_of(unmeasured_car(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}}, seconds);
 }
 
 }  // namespace
@@ -107,15 +112,9 @@ TEST_CASE("without a road: a law that has no spring is told of the damper's" *
       "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n"
       "voltage: coil\n",
       "light.yaml");
-  InPlantSetup truth = light;
-  truth.unknown.clear();
-  truth.known.insert(truth.known.end(), {{"sprung_mass", 345}, {"tyre_stiffness", 200e3}});
   const InPlantReport report = identify_in_plant(
       find_law("tanh_guo"), light,
-      recordings_of(virtual_campaign(
-          truth, load_parameters("spencer1997"),
-          {.duration = 20, .levels = {0, 1}, .road = "iso8608,class=C,speed=20m/s", .seed = 1})),
-      {});
+      rides_of(light, {{"sprung_mass", 345}, {"tyre_stiffness", 200e3}}, 20, 1), {});
   REQUIRE(report.model);
   CHECK(report.lacks == "spring");
   CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
@@ -151,16 +150,10 @@ TEST_CASE("without a road: a half car, each of whose tyres has a road of its own
                              {"inertia", 1222},
                              {"front_tyre_stiffness", 200e3},
                              {"rear_tyre_stiffness", 200e3}};
-  InPlantSetup known = setup;
-  known.unknown.clear();
-  known.known.insert(known.known.end(), truth.begin(), truth.end());
-  known.sensors[1].noise = 5e-3;
-  const InPlantReport report = identify_in_plant(
-      find_law("tanh_kwok"), setup,
-      recordings_of(virtual_campaign(
-          known, load_parameters("spencer1997"),
-          {.duration = 12, .levels = {0, 1}, .road = "iso8608,class=C,speed=20m/s", .seed = 31})),
-      {});
+  InPlantSetup noisy = setup;
+  noisy.sensors[1].noise = 5e-3;
+  const InPlantReport report =
+      identify_in_plant(find_law("tanh_kwok"), setup, rides_of(noisy, truth, 12), {});
   CAPTURE(report.message);
   REQUIRE(report.model);
   CHECK(report.knowable.confounded.empty());

@@ -67,7 +67,9 @@ struct InPlantReport {
   std::vector<InPlantTrace> traces;
   std::vector<std::string> warnings;
   bool road_measured = true;
-  std::string lacks;  ///< without the road: "spring", "dashpot" that the damper shows, not the law
+  /// Without the road: what the damper shows and the law does not, "spring", "spring and a
+  /// dashpot".
+  std::string lacks;
   std::string along;  ///< the law along which a model learnt that is no law
   Domain domain;      ///< of the damper's motion, as modelled
   int iterations = 0;

@@ -79,7 +79,10 @@ void require_followed(const InPlantSetup& setup, const PlantInputChannel& input,
                        setup.inputs[place].place.kind == PlantInput::Ground;
   if (!is_road || !setup.inputs[place].follows.empty())
     throw Error(where, "follows '" + input.follows + "', which is no channel of a road",
-                "follows: the channel of the road under the axle before it");
+                unmeasured_road(setup)
+                    ? "class and speed here too: where nothing measures the road, each tyre has "
+                      "one of its own"
+                    : "follows: the channel of the road under the axle before it");
   if (!(input.later > 0 && std::isfinite(input.later)))
     throw Error(where, "follows by no time", "a delay above 0: wheelbase over speed");
   if (setup.from_rest)

@@ -180,6 +180,8 @@ void SpectralLikelihood::seek_noise(double force) {
     seek(name + ", memory", "s", memory, e == 0 ? sample_time_ : kParted,
          e == 0 ? kParted : kSlowest);
   }
+
+  // Sensors that state none, and the road's class.
   const Plant plant = make_plant(*setup_->model, setup_->known);
   for (std::size_t s = 0; s < setup_->sensors.size(); ++s) {
     const PlantSensor& sensor = setup_->sensors[s];

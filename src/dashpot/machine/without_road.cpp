@@ -59,7 +59,7 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
   if (has_unmeasured_tracks(setup))
     throw Error("plant, inputs",
                 "nothing measures the roads under left and right, which are alike in part: a fit "
-                "that does not know in which makes the car too heavy",
+                "that does not know in which made virtual cars 6 to 8 % too heavy",
                 "a channel with each road's height, or a half_car");
   if (!knows_a_force(setup))
     throw Error("plant, parameters",
@@ -201,6 +201,8 @@ void ask_for_more(SpectralLikelihood& more, std::vector<double> x, const InPlant
                   InPlantReport& report) {
   constexpr double kOwnShare = 0.01, kChance = 0.005;
   const std::size_t n = more.size();
+
+  // What the law can make by itself is not asked for.
   const MostLikely before = most_likely(more, x, 0, options.threads, options.monitor);
   if (!before.slopes.finite) return;
   bool asks = false;
@@ -235,7 +237,7 @@ void ask_for_more(SpectralLikelihood& more, std::vector<double> x, const InPlant
     const FittedParameter p = more.described(k, found.x);
     const bool shows = std::abs(p.value) > half_of(k, normal_quantile(1 - kChance));
     if (more.is_held(k) || (!shows && !matters)) continue;
-    if (shows) report.lacks = p.name;
+    if (shows) report.lacks += (report.lacks.empty() ? "" : " and a ") + p.name;
     const double half = half_of(k, kNormal95);
     report.warnings.push_back(
         (shows ? "beside this law the damper shows a " + p.name + " of " + format_number(p.value, 3)

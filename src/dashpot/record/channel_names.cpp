@@ -110,14 +110,10 @@ bool fits(std::string_view channel, const Unit& unit) {
   return parse_unit(si_unit(channel))->dimension == unit.dimension;
 }
 
-struct Parts {
-  std::string name, unit;
-};
-
 /// The ways in which a column name may hold a unit, the plainest first: "x [mm]", "x (mm)", "x/mm",
 /// "x, mm", "x in mm", "F_N", "v_mm_s". Only texts that parse as a unit count.
-std::vector<Parts> possible_parts(std::string_view column) {
-  std::vector<Parts> parts;
+std::vector<ColumnParts> possible_parts(std::string_view column) {
+  std::vector<ColumnParts> parts;
   const auto add = [&](std::string_view name, std::string unit) {
     unit = std::string(trim(unit));
     const bool fahrenheit = unit == "F" && channel_of(trim(name)) == "temperature";
@@ -456,6 +452,14 @@ std::string_view si_unit(std::string_view channel) {
   return {};
 }
 
+std::optional<ColumnParts> parts_by_brackets(std::string_view column) {
+  if (column.empty() || std::string_view("])}").find(column.back()) == std::string_view::npos)
+    return std::nullopt;
+  std::vector<ColumnParts> parts = possible_parts(column);
+  if (parts.empty()) return std::nullopt;
+  return std::move(parts.front());
+}
+
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit) {
   // A field "time" of whatever channel's structure.
   if (lower(trim(column)).ends_with(".time")) return recognise_channel("time", row_unit);
@@ -471,7 +475,7 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
     return found;
   };
   NamedChannel refused;
-  for (const Parts& parts : possible_parts(whole)) {
+  for (const ColumnParts& parts : possible_parts(whole)) {
     NamedChannel found = resolve(parts.name, parts.unit);
     const bool two_units =
         !found.channel.empty() && !row.empty() && parse_unit(row) && row != found.unit;

@@ -22,6 +22,12 @@ struct NamedChannel {
 /// as the `problem` of a channel: whoever uses the column must refuse it. Never throws.
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit);
 
+/// A column's name and the unit in brackets behind it; nothing where there is none that is known.
+struct ColumnParts {
+  std::string name, unit;
+};
+std::optional<ColumnParts> parts_by_brackets(std::string_view column);
+
 /// SI unit text of a channel or "time"; "" for a channel that is not standard.
 std::string_view si_unit(std::string_view channel);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
@@ -18,20 +17,11 @@ std::string column_name(const RawTable& table, std::size_t column) {
   return name.empty() ? "column " + std::to_string(column + 1) : name;
 }
 
-/// A column's name, and what stands in brackets behind it.
-std::pair<std::string_view, std::string_view> parted(std::string_view name) {
-  if (!name.ends_with(']') && !name.ends_with(')')) return {name, {}};
-  const std::size_t bracket = name.rfind(name.back() == ']' ? '[' : '(');
-  const std::size_t end = name.substr(0, bracket).find_last_not_of(' ');
-  if (bracket == std::string_view::npos || end == std::string_view::npos) return {name, {}};
-  return {name.substr(0, end + 1), name.substr(bracket + 1, name.size() - bracket - 2)};
-}
-
 /// The unit in brackets behind a column's name, where it counts what the channel is; else empty.
 std::string unit_behind(std::string_view name, std::string_view channel) {
-  const std::string unit(parted(name).second);
-  const auto behind = parse_unit(unit), si = parse_unit(std::string(si_unit(channel)));
-  return !unit.empty() && behind && si && behind->dimension == si->dimension ? unit : "";
+  const auto parts = parts_by_brackets(name);
+  const auto si = parse_unit(std::string(si_unit(channel)));
+  return parts && si && parse_unit(parts->unit)->dimension == si->dimension ? parts->unit : "";
 }
 
 /// Index of the column that a statement means, by number or by name, where one alone has it also
@@ -44,7 +34,8 @@ std::size_t find_column(const RawTable& table, const ChannelStatement& statement
 
   const auto called = [&](const RawColumn& column) { return column.name == statement.column; };
   const auto called_so = [&](const RawColumn& column) {
-    return parted(column.name).first == statement.column;
+    const auto parts = parts_by_brackets(column.name);
+    return parts && parts->name == statement.column;
   };
   auto found = std::ranges::find_if(table.columns, called);
   if (found == table.columns.end() && std::ranges::count_if(table.columns, called_so) == 1)
