@@ -152,6 +152,13 @@ std::string shown_errors(const InPlantReport& report, const DamperModel& damper,
   }
 }
 
+/// Error one sample ahead on the time held back over the rms of the signal, %: the worst sensor.
+double worst_sensor(const InPlantReport& report) {
+  double worst = 0;
+  for (const SensorFigures& s : report.sensors) worst = std::max(worst, 100 * s.held_back / s.rms);
+  return worst;
+}
+
 void print_fit(const InPlantReport& report) {
   fmt::print("{}; {} iterations, {:.1f} s of CPU, {} steps per sample\n", report.message,
              report.iterations, report.seconds, report.steps);
@@ -191,6 +198,28 @@ void run_unmeasured(const std::string& truth, const std::string& road_class, dou
     for (const std::string& other : std::vector<std::string>{"B", "C", "D"})
       fmt::print("force on another road, class {}, at 0, 1, 2 V: {} % of its span, rms\n", other,
                  shown_errors(report, *damper, setup, other));
+    std::fflush(stdout);
+  }
+}
+
+/// named TRUTH CLASS SECONDS LAW...: what the laws are listed by, beside how well each truly does.
+void run_named(const std::string& truth, const std::string& road_class, double seconds,
+               const std::vector<std::string>& laws) {
+  const std::unique_ptr<LawModel> damper = true_damper(truth);
+  const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
+  const auto recordings = rides(true_car(setup), *damper, road_class, seconds / 3, 1);
+  for (const std::string& law : laws) {
+    const InPlantReport report = identify_in_plant(find_law(law), setup, recordings, {});
+    if (!report.model) {
+      fmt::print("{}, {}: {}\n", truth, law, report.message);
+      continue;
+    }
+    fmt::print(
+        "{}, {}: force error {:.0f} N, worst sensor {:.1f} %, body {:.0f} kg, force on another "
+        "road at 0, 1, 2 V {} % of its span{}\n",
+        truth, law, report.force_error, worst_sensor(report), found(report, "sprung_mass"),
+        shown_errors(report, *damper, setup, road_class),
+        report.lacks.empty() ? "" : ", lacks a " + report.lacks);
     std::fflush(stdout);
   }
 }
@@ -477,6 +506,10 @@ void run_half(int repetitions, const std::string& truth, const std::string& road
 bool run_without_road(const std::vector<std::string>& words) {
   if (words.size() >= 5 && words[0] == "unmeasured") {
     run_unmeasured(words[1], words[2], std::stod(words[3]), {words.begin() + 4, words.end()});
+    return true;
+  }
+  if (words.size() >= 5 && words[0] == "named") {
+    run_named(words[1], words[2], std::stod(words[3]), {words.begin() + 4, words.end()});
     return true;
   }
   if (words.size() == 6 && words[0] == "cover") {

@@ -279,8 +279,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
                 (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
                 "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +
                 plant.string() + ", as it truly is\nNext        dashpot identify " +
-                shell_quoted(folder) + " --in " + shell_quoted(settings.plant) +
-                " --models tanh_kwok\n");
+                shell_quoted(folder) + " --in " + shell_quoted(settings.plant) + '\n');
   if (console.json)
     console.print_json(
         Value::object({{"folder", folder}, {"rides", std::move(list)}, {"plant", plant.string()}}));

@@ -30,18 +30,21 @@ double worst_of(const InPlantFit& fit) {
   return fit.report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
 }
 
-/// By which models are listed: what could be fitted, then what lacks nothing that is known of, then
-/// the error.
+/// By which models are listed: what could be fitted, then by the error in free run; where nothing
+/// measures the road what lacks nothing that is known of, then by what is left of the force.
 std::tuple<bool, bool, double> place_of(const InPlantFit& fit) {
+  const InPlantReport& report = fit.report;
   const double worst = worst_of(fit);
-  return {!std::isfinite(worst), !fit.report.lacks.empty(), worst};
+  return {!std::isfinite(worst), !report.lacks.empty(),
+          report.road_measured ? worst : report.force_error};
 }
 
-/// Models are named: none is usual inside a plant.
-void require_named_models(const std::vector<std::string>& models) {
-  if (models == std::vector<std::string>{"usual"})
-    throw UsageError("--models", "is not stated",
-                     "with --in, name what is to be fitted: --models modified_bouc_wen");
+/// The models asked for; unasked those that are usual in such a plant.
+std::vector<std::string> models_for(const InPlantSetup& setup,
+                                    const std::vector<std::string>& asked) {
+  if (asked == std::vector<std::string>{"usual"}) return usual_in_plant();
+  for (const std::string& model : asked) require_model_for_plant(model, setup, "--models");
+  return asked;
 }
 
 /// What the fit of a measured force follows alone, what it is ridden by among them, each with what
@@ -233,8 +236,52 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
 std::string remark_of(const InPlantFit& fit) {
   if (fit.report.status != FitReport::Status::Converged) return fit.report.message;
   if (!fit.was_asked_for) return "not asked for: the others learnt along it";
-  if (!fit.report.lacks.empty()) return "lacks a " + fit.report.lacks + " that the damper shows";
+  if (!fit.report.lacks.empty()) return "lacks a " + fit.report.lacks;
   return fit.report.along.empty() ? "" : "learnt along " + fit.report.along;
+}
+
+DocumentTable models_in_free_run(const std::vector<InPlantFit>& fits) {
+  DocumentTable table{.title = "Models, by the worst sensor on the time held back",
+                      .columns = {{"model"}, {"error %", true}, {"CPU s", true}, {"remark"}},
+                      .rows = {}};
+  for (const InPlantFit& fit : fits)
+    table.rows.push_back({fit.model, format_number(worst_of(fit), 3),
+                          format_number(fit.report.seconds, 3), remark_of(fit)});
+  return table;
+}
+
+/// Where nothing measures the road.
+DocumentTable models_by_force_error(const std::vector<InPlantFit>& fits) {
+  const bool lacks =
+      std::ranges::any_of(fits, [](const InPlantFit& fit) { return !fit.report.lacks.empty(); });
+  DocumentTable table{.title = std::string("Models, ") +
+                               (lacks ? "first those without a known lack, " : "") +
+                               "by what they leave of the damper's force",
+                      .columns = {{"model"},
+                                  {"force error N", true},
+                                  {"worst sensor %", true},
+                                  {"CPU s", true},
+                                  {"remark"}},
+                      .rows = {}};
+  for (const InPlantFit& fit : fits)
+    table.rows.push_back({fit.model, format_number(fit.report.force_error, 3),
+                          format_number(worst_of(fit), 3), format_number(fit.report.seconds, 3),
+                          remark_of(fit)});
+  table.note =
+      "Force error: rms of what the law leaves of the force, as the sensors tell it. Worst sensor: "
+      "error one sample ahead on the time held back, over its rms, which says little of the law.";
+  return table;
+}
+
+std::string verdict_of(const InPlantFit& best, const InPlantSetup& setup) {
+  const InPlantReport& report = best.report;
+  if (!report.model) return "Nothing could be fitted: " + report.message;
+  const std::string where = best.model + " in the " + std::string(setup.model->name) + ": ";
+  if (!report.road_measured)
+    return where + "it leaves " + format_number(report.force_error, 3) +
+           " N of the damper's force (rms), as the sensors tell it; nothing measures the road.";
+  return where + format_number(worst_of(best), 3) +
+         " % of the worst sensor's rms is left on the time held back, in free run.";
 }
 
 Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSetup& setup,
@@ -248,15 +295,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
                     .version = DASHPOT_VERSION,
                     .date = date_now(),
                     .kind = "identification"};
-  document.verdict =
-      best.report.model
-          ? fmt::format(
-                "{} in the {}: {} % of the worst sensor's rms is left on the time held "
-                "back, {}.",
-                best.model, setup.model->name, format_number(worst_of(best), 3),
-                best.report.road_measured ? "in free run"
-                                          : "one sample ahead; nothing measures the road")
-          : "Nothing could be fitted: " + best.report.message;
+  document.verdict = verdict_of(best, setup);
 
   // What speaks against them stands first in the files; the terminal has it as warnings.
   DocumentSection doubts{
@@ -266,21 +305,13 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
       doubts.remarks.push_back(fit.model + ": " + warning);
   if (!doubts.remarks.empty()) document.sections.push_back(std::move(doubts));
 
-  // The models beside each other, where there are several.
-  if (fits.size() > 1) {
-    const bool lacks =
-        std::ranges::any_of(fits, [](const InPlantFit& fit) { return !fit.report.lacks.empty(); });
-    DocumentTable laws{
-        .title = std::string(lacks ? "Models, first those without a known lack, " : "Models, ") +
-                 "by the worst sensor on the time held back",
-        .columns = {{"model"}, {"error %", true}, {"CPU s", true}, {"remark"}},
-        .rows = {}};
-    for (const InPlantFit& fit : fits)
-      laws.rows.push_back({fit.model, format_number(worst_of(fit), 3),
-                           format_number(fit.report.seconds, 3), remark_of(fit)});
+  if (fits.size() > 1)
     document.sections.push_back(
-        {.name = "models", .title = "Models", .paragraphs = {}, .tables = {std::move(laws)}});
-  }
+        {.name = "models",
+         .title = "Models",
+         .paragraphs = {},
+         .tables = {best.report.road_measured ? models_in_free_run(fits)
+                                              : models_by_force_error(fits)}});
 
   // The best of them in full.
   if (best.report.model) {
@@ -330,41 +361,41 @@ std::vector<Option> in_plant_options(InPlantSettings& settings, const std::vecto
   std::vector<std::string> grades;
   for (const SensorGrade& grade : sensor_grades())
     if (grade.sensors[0] > 0) grades.push_back(grade.name);
-  return {{.names = "--in",
-           .target = &settings.plant,
-           .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
-                   "a YAML file or words (docs/in-plant.md)",
-           .value = "PLANT",
-           .takes = Takes::File,
-           .default_text = "a bench that measures the damper's force",
-           .idles = idle_in_plant(ride),
-           .details = "; the models of --models are identified as part of it, with its unknown "
-                      "numbers: laws in free run, others along the best of these laws"},
-          {.names = "--grade",
-           .target = &settings.grade,
-           .help = "with --in: the grade of the sensors that it tries beside those that are there",
-           .value = "NAME",
-           .choices = grades,
-           .noun = "grade",
-           .needs = "--in"},
-          {.names = "--profile",
-           .target = &settings.profiles,
-           .help = "with --in: numbers of plant and damper whose misfit is followed with all "
-                   "others fitted anew; those that no sensor tells are so unasked",
-           .value = "LIST",
-           .needs = "--in"}};
+  return {
+      {.names = "--in",
+       .target = &settings.plant,
+       .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
+               "a YAML file or words (docs/in-plant.md)",
+       .value = "PLANT",
+       .takes = Takes::File,
+       .default_text = "a bench that measures the damper's force",
+       .idles = idle_in_plant(ride),
+       .details = "; the models of --models (unasked some usual laws) are identified as part of "
+                  "it, with its unknown numbers: laws in free run, others along the best of "
+                  "these laws"},
+      {.names = "--grade",
+       .target = &settings.grade,
+       .help = "with --in: the grade of the sensors that it tries beside those that are there",
+       .value = "NAME",
+       .choices = grades,
+       .noun = "grade",
+       .needs = "--in"},
+      {.names = "--profile",
+       .target = &settings.profiles,
+       .help = "with --in: numbers of plant and damper whose misfit is followed with all "
+               "others fitted anew; those that no sensor tells are so unasked",
+       .value = "LIST",
+       .needs = "--in"}};
 }
 
 int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console) {
   // All that can be wrong is found before the work.
-  require_named_models(settings.fit.models);
   const InPlantSetup setup = read_in_plant_setup(asked.plant);
-  for (const std::string& model : settings.fit.models)
-    require_model_for_plant(model, setup, "--models");
+  const std::vector<std::string> wanted = models_for(setup, settings.fit.models);
   if (settings.fit.options.asymmetric && !unmeasured_road(setup))
     throw UsageError("--asymmetric", "has no meaning where the road is measured",
                      "both sides of the damper are alike there");
-  const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);
+  const IdentifyOptions fit = identify_options(settings.fit, wanted, console);
   const std::vector<std::string> files = recording_files(settings.data.paths);
   std::vector<PlantRecording> recordings;
   for (const std::string& file : files)
@@ -382,7 +413,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
                          .profiles = asked.profiles,
                          .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
-  std::vector<InPlantFit> fits = identify_in_plant(settings.fit.models, setup, recordings, options);
+  std::vector<InPlantFit> fits = identify_in_plant(wanted, setup, recordings, options);
   std::ranges::stable_sort(fits, {}, place_of);
 
   // What came out of it.

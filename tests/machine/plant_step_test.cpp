@@ -6,7 +6,9 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/plant_run.h"
+#include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/vehicle.h"
 #include "support.h"
 
@@ -178,4 +180,34 @@ TEST_CASE("plant step: a run beside another one that hardly differs is what it i
     RunTangent own;
     CHECK(distance(run(other, {.follow = &tangent}), run(other, {.keep = &own})) < close);
   }
+}
+
+TEST_CASE("a virtual campaign goes with a damper that is too stiff for Runge-Kutta") {
+  // Friction of 400 N that is at its limit after 10 um, or after 0.1 um, and a dashpot.
+  const InPlantSetup car = parse_in_plant_setup(
+      "plant: quarter_car\n"
+      "parameters: {sprung_mass: 350 kg, unsprung_mass: 40 kg, spring_stiffness: 20 N/mm, "
+      "tyre_stiffness: 200 N/mm}\n"
+      "inputs: [{channel: road, kind: ground}]\n"
+      "sensors: [{channel: az, quantity: acceleration, at: body}]\n",
+      "car");
+  const Law& law = find_law("bouc_wen");
+  const auto wheel = [&](double give) {
+    std::vector<double> parameters = defaults_of("bouc_wen");
+    const std::pair<const char*, double> numbers[] = {
+        {"alpha", 400 / give}, {"c0", 500}, {"k0", 0}, {"x0", 0}, {"gamma", 1 / give},
+        {"beta", 0},           {"A", 1},    {"n", 1},  {"f0", 0}};
+    for (const auto& [name, value] : numbers) parameters[law.index_of(name)] = value;
+    const auto rides = virtual_campaign(
+        car, LawModel::constant(law, parameters),
+        {.duration = 2, .levels = {0}, .road = "iso8608,class=C,speed=20m/s", .seed = 3});
+    return rides.front().truth.channel("wheel_velocity").samples;
+  };
+  const std::vector<double> limit = wheel(1e-5), stiff = wheel(1e-7);
+  double square = 0, apart = 0;
+  for (std::size_t k = 0; k < limit.size(); ++k) {
+    square += limit[k] * limit[k];
+    apart += (limit[k] - stiff[k]) * (limit[k] - stiff[k]);
+  }
+  CHECK(std::sqrt(apart / square) < 0.06);
 }

@@ -125,6 +125,25 @@ TEST_CASE("without a road: a law that has no spring is told of the damper's" *
   CHECK(report.plant[0].high > 345);
 }
 
+TEST_CASE("without a road: the law that is the damper's leaves less of the force than another" *
+          doctest::test_suite("long")) {
+  // A force over the speed alone, and one with a sharper knee than any; the truth is the first.
+  InPlantSetup car = unmeasured_car();
+  car.unknown.clear();
+  car.known.insert(car.known.end(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}});
+  const LawModel truth =
+      LawModel::constant(find_law("tanh_guo"), std::vector<double>{400, 1000, 20, 0.05, 0.02, 0});
+  const auto recordings = recordings_of(virtual_campaign(
+      car, truth, {.duration = 12, .levels = {1}, .road = "iso8608,class=C,speed=20m/s"}));
+  const auto fit = [&](const char* law) {
+    return identify_in_plant(find_law(law), unmeasured_car(), recordings, {});
+  };
+  const InPlantReport right = fit("tanh_guo"), wrong = fit("bingham");
+  REQUIRE((right.model && wrong.model));
+  CHECK(right.force_error < 0.2 * wrong.force_error);
+  CHECK(right.force_error > 0);
+}
+
 TEST_CASE("without a road: a half car, each of whose tyres has a road of its own" *
           doctest::test_suite("long")) {
   const InPlantSetup setup = parse_in_plant_setup(

@@ -43,6 +43,7 @@ struct Candidate {
   LawUnknowns unknowns;
   std::vector<double> x;
   double cost = INFINITY;
+  std::optional<LawUnknowns::Group> held = {};  ///< of the law, while all else is fitted
 };
 
 /// Forces are seen only through a plant of which something is expected.
@@ -117,38 +118,78 @@ std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
   return all;
 }
 
+/// What starts are fitted in.
+struct Trial {
+  const InPlantSetup& setup;
+  const PlantCases& cases;
+  const PlantStart& start;
+  const InPlantOptions& options;
+};
+
+/// Fits all over so many samples, and puts the best first.
+void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all) {
+  constexpr int kIterations = 25;
+  constexpr double kTolerance = 1e-4, kFirstRadius = 10;
+  parallel_for(all.size(), in.options.threads, [&](std::size_t k) {
+    Candidate& one = all[k];
+    const PlantResiduals residuals(in.setup, in.cases, one.unknowns, in.start.plant,
+                                   in.start.scale);
+    LeastSquaresProblem problem = residuals.problem(horizon, in.options.threads);
+    const auto hold = [&](std::size_t place) {
+      problem.lower[place] = problem.upper[place] = one.x[place];
+    };
+
+    // A delay waits for the fit of all.
+    for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d) hold(d);
+    for (std::size_t u = 0; one.held && u < one.held->count; ++u)
+      hold(in.start.plant.size() + one.held->first + u);
+    LeastSquaresOptions solver = solver_options(in.options, kIterations, kTolerance);
+    solver.first_radius = kFirstRadius;
+    const LeastSquaresReport solved = solve(problem, residuals.off_bounds(one.x), solver);
+    one.cost = solved.cost;
+    if (std::isfinite(solved.cost)) one.x = solved.x;
+  });
+  std::ranges::stable_sort(all, {}, &Candidate::cost);
+}
+
+/// The best once more from where a parameter of its law does not follow the drive, first held
+/// there: one that takes on another's part at a low drive may have been left so.
+void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>& all) {
+  constexpr double kClearly = 0.99;
+  const Candidate best = all.front();
+  const std::size_t first = in.start.plant.size();
+  std::vector<Candidate> others;
+  for (const LawUnknowns::Flattened& flat :
+       best.unknowns.flattened(std::span(best.x).subspan(first, best.unknowns.size()))) {
+    others.push_back(best);
+    others.back().held = flat.group;
+    std::ranges::copy(flat.unknowns, others.back().x.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  fit_over(horizon, in, others);
+  for (Candidate& one : others) one.held = {};
+  fit_over(horizon, in, others);
+  if (!others.empty() && others.front().cost < kClearly * best.cost)
+    all.insert(all.begin(), std::move(others.front()));
+}
+
 /// The most promising of them: all are fitted over a short time, where errors in the parameters
 /// have not yet driven the motions apart, the better half over a longer one, and so on. Its cost is
 /// infinite where the plant diverges later.
 Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
                      const PlantStart& start, const std::optional<Candidate>& from_bench,
                      const InPlantOptions& options) {
-  constexpr int kIterations = 25;
-  constexpr double kTolerance = 1e-4, kFirstRadius = 10;
   constexpr std::array<std::size_t, 3> kHorizons{250, 700, 2500};
+  const Trial in{setup, cases, start, options};
   std::vector<Candidate> left = candidates(law, setup, cases, start, from_bench, options);
   double done = 0;
   for (const std::size_t horizon : kHorizons) {
     options.monitor.report("starts, over " + std::to_string(horizon) + " samples", done);
     done += 0.1;
-    parallel_for(left.size(), options.threads, [&](std::size_t k) {
-      Candidate& one = left[k];
-      const PlantResiduals residuals(setup, cases, one.unknowns, start.plant, start.scale);
-
-      // A delay waits for the fit of all.
-      LeastSquaresProblem trial = residuals.problem(horizon, options.threads);
-      for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d)
-        trial.lower[d] = trial.upper[d] = one.x[d];
-      LeastSquaresOptions solver = solver_options(options, kIterations, kTolerance);
-      solver.first_radius = kFirstRadius;
-      const LeastSquaresReport solved = solve(trial, residuals.off_bounds(one.x), solver);
-      one.cost = solved.cost;
-      if (std::isfinite(solved.cost)) one.x = solved.x;
-    });
-    std::ranges::stable_sort(left, {}, &Candidate::cost);
+    fit_over(horizon, in, left);
     if (horizon == kHorizons.back()) break;
     left.erase(left.begin() + static_cast<std::ptrdiff_t>((left.size() + 1) / 2), left.end());
   }
+  if (std::isfinite(left.front().cost)) add_flattened(kHorizons.back(), in, left);
 
   // The first that goes through all of the recordings.
   for (const Candidate& one : left) {
@@ -357,7 +398,8 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   require_profiles(law, setup, start.scale, options);
 
   const Candidate best = start_of_law(law, setup, recordings, cases, start, options);
-  const auto& [unknowns, x, cost] = best;
+  const LawUnknowns& unknowns = best.unknowns;
+  const std::vector<double>& x = best.x;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
 

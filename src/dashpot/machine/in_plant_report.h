@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -67,6 +68,8 @@ struct InPlantReport {
   std::vector<InPlantTrace> traces;
   std::vector<std::string> warnings;
   bool road_measured = true;
+  /// Without the road: what the law leaves of a damper's force, as the sensors tell it: rms, N.
+  double force_error = std::numeric_limits<double>::quiet_NaN();
   /// Without the road: what the damper shows and the law does not, "spring", "spring and a
   /// dashpot".
   std::string lacks;

@@ -99,6 +99,7 @@ Value to_json(const InPlantReport& r, const std::string& law) {
                               {"advice", to_json(r.advice)},
                               {"warnings", Value::array(r.warnings)}});
   if (!r.along.empty()) told.add("along", r.along);
+  if (!r.road_measured && r.model) told.add("force_error", r.force_error);
   if (!r.lacks.empty()) told.add("lacks", r.lacks);
   return told;
 }

@@ -235,7 +235,7 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
   const int rounds = has_noisy_inputs(setup) ? 1 : 3;  // where the plant stays, one tells all
   int iterations = 0;
   for (int round = 0; round < rounds; ++round) {
-    options.monitor.report(model + ", round " + std::to_string(round + 1),
+    options.monitor.report("round " + std::to_string(round + 1),
                            static_cast<double>(round) / rounds);
     Round now = next_round(best, model, setup, recordings, scale, cases, options);
     iterations += now.report.iterations;
@@ -258,7 +258,22 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
   return report;
 }
 
+/// The options of one of several models, whose progress is told as a part of the whole.
+InPlantOptions told_of(const std::string& model, std::size_t before, std::size_t count,
+                       InPlantOptions options) {
+  if (!options.monitor.on_progress) return options;
+  options.monitor.on_progress = [=, whole = options.monitor.on_progress](const Progress& own) {
+    const double done = static_cast<double>(before) + own.fraction;
+    whole({model + ", " + own.stage, std::min(1.0, done / static_cast<double>(count))});
+  };
+  return options;
+}
+
 }  // namespace
+
+std::vector<std::string> usual_in_plant() {
+  return {"tanh_guo", "tanh_kwok", "hysteretic_biviscous", "bouc_wen", "modified_bouc_wen"};
+}
 
 void require_model_for_plant(const std::string& model, const InPlantSetup& setup,
                              const std::string& where) {
@@ -282,8 +297,8 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   require_setup(setup);
   std::vector<InPlantFit> fits;
   const auto fit_law = [&](const std::string& law, bool was_asked_for) {
-    fits.push_back(
-        {law, identify_in_plant(find_law(law), setup, recordings, options), was_asked_for});
+    const InPlantOptions own = told_of(law, fits.size(), models.size(), options);
+    fits.push_back({law, identify_in_plant(find_law(law), setup, recordings, own), was_asked_for});
     fits.back().report.noise = found_noise(setup, fits.back().report);
   };
   for (const std::string& model : models) require_model_for_plant(model, setup, "models");
@@ -305,7 +320,8 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
     if (is_law(model)) continue;
     fits.push_back({model, {}});
     if (law.report.model)
-      fits.back().report = identify_along(model, law, setup, recordings, options);
+      fits.back().report = identify_along(model, law, setup, recordings,
+                                          told_of(model, fits.size() - 1, models.size(), options));
     else
       fits.back().report.message = "no law could be fitted before it: " + law.report.message;
   }

@@ -17,6 +17,10 @@ namespace dashpot {
 /// The law along which a model learns where no law is asked for.
 inline constexpr const char* kLawBeforeModels = "tanh_kwok";
 
+/// The laws that are tried where no model is named, with and without a memory: each is the one that
+/// comes nearest to some virtual damper (docs/in-plant.md).
+std::vector<std::string> usual_in_plant();
+
 /// A model that was identified in a plant.
 struct InPlantFit {
   std::string model;

@@ -303,6 +303,30 @@ struct Point {
   ObserverNoise noise;
 };
 
+/// The most likely from here, or from where a parameter of the law does not follow the drive: one
+/// that takes on another's part at a low drive may be left there by the scoring.
+MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const LawUnknowns& unknowns,
+                                 const std::vector<double>& start, const InPlantOptions& options) {
+  constexpr double kClearly = 1;  // of -log L
+  const auto from = [&](std::vector<double> x) {
+    return most_likely(likelihood, std::move(x), options.iterations, options.threads,
+                       options.monitor);
+  };
+  MostLikely best = from(start);
+  if (!best.slopes.finite) return best;
+  const std::vector<double> found = best.x;
+  const std::span law = std::span(found).subspan(likelihood.plant_unknowns(), unknowns.size());
+  for (const LawUnknowns::Flattened& flat : unknowns.flattened(law)) {
+    std::vector<double> x = best.x;
+    std::ranges::copy(flat.unknowns,
+                      x.begin() + static_cast<std::ptrdiff_t>(likelihood.plant_unknowns()));
+    MostLikely other = from(std::move(x));
+    if (other.slopes.finite && other.slopes.value < best.slopes.value - kClearly)
+      best = std::move(other);
+  }
+  return best;
+}
+
 /// The most likely of all unknowns along the observed motion, from `point`, which moves there. The
 /// setup as it was found; the report has no model where the law diverges. `last`: intervals too.
 InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double force,
@@ -323,7 +347,8 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
       report.knowable = knowable_of(likelihood, {before.slopes.information}, start.size());
   }
   const MostLikely found =
-      most_likely(likelihood, start, options.iterations, options.threads, options.monitor);
+      last ? most_likely(likelihood, start, options.iterations, options.threads, options.monitor)
+           : most_likely_of_starts(likelihood, unknowns, start, options);
   report.iterations += found.iterations;
   report.model = nullptr;
   if (!found.slopes.finite) {
@@ -401,19 +426,28 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   noise.force = {{kFirstError * size.force, 0.01}, {kFirstError * size.force, 0.3}};
   Point point{task.plant, std::move(law_numbers), noise};
   report.domain = domain_of(setup, records);
-  for (const bool last : {false, true}) {
-    options.monitor.report(last ? "fit, along the motion as now observed" : "fit",
-                           last ? 0.6 : 0.3);
-    const InPlantSetup found = fit_along(task, unknowns, size.force, observed, last, point, report);
-    report.seconds = cpu_seconds() - started;
-    if (!report.model) return report;
-    if (!last) {
-      observed = observe(report.model, report.domain, found, task.fitted,
-                         {.force = point.noise.force, .threads = options.threads});
-      continue;
+  try {
+    for (const bool last : {false, true}) {
+      options.monitor.report(last ? "fit, along the motion as now observed" : "fit",
+                             last ? 0.6 : 0.3);
+      const InPlantSetup found =
+          fit_along(task, unknowns, size.force, observed, last, point, report);
+      if (!report.model) break;
+      if (!last) {
+        observed = observe(report.model, report.domain, found, task.fitted,
+                           {.force = point.noise.force, .threads = options.threads});
+        continue;
+      }
+      report.force_error = 0;
+      for (const ForceError& error : point.noise.force)
+        report.force_error = std::hypot(report.force_error, error.deviation);
+      add_traces(task, found, point.noise, recordings, report);
+      std::ranges::move(noise_doubts(setup, report), std::back_inserter(report.warnings));
     }
-    add_traces(task, found, point.noise, recordings, report);
-    std::ranges::move(noise_doubts(setup, report), std::back_inserter(report.warnings));
+  } catch (const Error& error) {
+    // A filter with this law diverges; those of other laws may not.
+    report.model = nullptr;
+    report.message = error.what();
   }
   report.seconds = cpu_seconds() - started;
   return report;

@@ -283,6 +283,17 @@ std::vector<LawUnknowns::Group> LawUnknowns::groups() const {
   return out;
 }
 
+std::vector<LawUnknowns::Flattened> LawUnknowns::flattened(std::span<const double> unknowns) const {
+  std::vector<Flattened> all;
+  for (const Group& group : groups()) {
+    if (group.count < 2 || !is_polynomial(form_of(group.parameter))) continue;
+    all.push_back({group, {unknowns.begin(), unknowns.end()}});
+    const std::span<double> own = std::span(all.back().unknowns).subspan(group.first, group.count);
+    std::ranges::fill(own, own.back());
+  }
+  return all;
+}
+
 double LawUnknowns::step(std::span<const double> unknowns, const Group& group) const {
   constexpr double kStep = 1e-6;
   const Row& row = rows_[group.parameter];

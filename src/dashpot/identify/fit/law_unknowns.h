@@ -71,6 +71,13 @@ class LawUnknowns {
     std::size_t parameter = 0, first = 0, count = 0;
   };
   std::vector<Group> groups() const;
+  /// From where a fit may end elsewhere: one parameter after the other that follows the drive as a
+  /// polynomial is at all drives what it is at the greatest.
+  struct Flattened {
+    Group group;
+    std::vector<double> unknowns;
+  };
+  std::vector<Flattened> flattened(std::span<const double> unknowns) const;
   /// A small step of the group's parameter, in its unit, that stays within its bounds where it can.
   double step(std::span<const double> unknowns, const Group& group) const;
   /// The model with the group's parameter moved by `step` at every current.
