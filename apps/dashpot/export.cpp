@@ -18,6 +18,7 @@
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_observer.h"
+#include "dashpot/export/c/c_source.h"
 #include "dashpot/export/fmu/fmu.h"
 #include "dashpot/export/tables/force_map.h"
 #include "dashpot/machine/found_noise.h"
@@ -101,13 +102,6 @@ std::optional<CPrecision> precision_of(const ExportSettings& settings) {
   return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
 }
 
-/// Adds files but those that are there: several formats have C code.
-void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
-  for (ExportedFile& file : written)
-    if (std::ranges::find(files, file.name, &ExportedFile::name) == files.end())
-      files.push_back(std::move(file));
-}
-
 std::vector<ExportedFile> damper_files(const ExportSettings& settings, const ExportOptions& options,
                                        Console& console) {
   const ModelFile file = load_damper_file(settings.damper, "export", console);
@@ -129,7 +123,7 @@ std::vector<ExportedFile> damper_files(const ExportSettings& settings, const Exp
     console.note("the code is of one damper of the family: " + describe(family->member()));
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    add(find_exporter(format, "--to").write(exported_model(file), options), files);
+    add_files(find_exporter(format, "--to").write(exported_model(file), options), files);
   return files;
 }
 
@@ -159,12 +153,12 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   const double sample_time = options.sample_time > 0 ? options.sample_time
                              : file.sample_time > 0  ? file.sample_time
                                                      : 1e-3;
+  const std::string origin = damper_origin(exported_model(file));
   const std::shared_ptr<const DamperModel> damper = std::move(file.model);
   auto observer = std::make_shared<const PlantObserver>(
       make_observer(damper, file.domain, setup, sample_time, observed));
-  return [observer, names = observer_names(setup, damper->name())](const ExportOptions& own) {
-    return c_observer_block(*observer, names, own);
-  };
+  return [observer, names = observer_names(setup, damper->name()), origin](
+             const ExportOptions& own) { return c_observer_block(*observer, names, origin, own); };
 }
 
 /// Options, and whether they were given.
@@ -234,7 +228,7 @@ std::vector<ExportedFile> exported_files(const ExportSettings& settings,
   if (settings.tunable) throw UsageError("--tunable", "is of a damper's model", "leave it out");
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    add(find_exporter(format, "--to").write_block(block, options), files);
+    add_files(find_exporter(format, "--to").write_block(block, options), files);
   return files;
 }
 

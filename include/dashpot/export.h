@@ -55,6 +55,9 @@ struct ExportedFile {
   std::string name, content;
 };
 
+/// Adds files but those whose names are there: several formats have the same C code.
+void add_files(std::vector<ExportedFile> more, std::vector<ExportedFile>& files);
+
 struct CBlock;
 /// An inverse or a controller, for options of an exporter's own.
 using CBlockMaker = std::function<CBlock(const ExportOptions&)>;

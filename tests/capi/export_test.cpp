@@ -46,6 +46,23 @@ TEST_CASE("a model is exported as the program does it") {
   }
 }
 
+TEST_CASE("files that several formats share are written and listed once") {
+  const TemporaryFolder folder;
+  const Value options =
+      Value::object({{"to", Value::array(std::vector<std::string>{"c", "mex", "sfunction"})},
+                     {"folder", folder.path().string()},
+                     {"name", "front"}});
+  Text report;
+  REQUIRE(dashpot_export(published("spencer1997"), dashpot::format_json(options).c_str(),
+                         &report) == DASHPOT_OK);
+  const Value told = parse_json(report.handle, "report");
+  std::vector<std::string> names;
+  for (const Value& file : told.find("files")->items())
+    names.push_back(std::filesystem::path(file.as_string()).filename().string());
+  CHECK(names == std::vector<std::string>{"front.h", "front.c", "front_test.c", "front_mex.c",
+                                          "front_sfun.c"});
+}
+
 TEST_CASE("an export that cannot be says why, and writes nothing") {
   const TemporaryFolder folder;
   const std::string into = (folder.path() / "out").string();

@@ -233,4 +233,5 @@ TEST_CASE("observe: dampers of a half car by the names of their struts" *
                   " --force-error 5@0.01 --to c --name cells --output " + c);
   CHECK(exported.exit_code == 0);
   CHECK(contains(read_file(c + "/cells.h"), "rear_damper_force (N)"));
+  CHECK(contains(read_file(c + "/cells.h"), "Of its damper: "));
 }
