@@ -102,9 +102,10 @@ TEST_CASE(
   const ProgramResult controller =
       run_dashpot("export --controller skyhook --damper vrths_mr_arctan --current-max 9" + to);
   CAPTURE(controller.output);
-  for (const char* text : {"savaresi_spelta are an example: recalled, not looked up",
-                           "vrths_mr_arctan: it feeds energy into motions",
-                           "a greatest drive of 9 A is beyond what it is known for, 1 A"}) {
+  for (const char* text :
+       {"savaresi_spelta are an example: recalled, not looked up",
+        "vrths_mr_arctan: it feeds energy into motions",
+        "vrths_mr_arctan: a greatest drive of 9 A is beyond what the damper is known for, 1 A"}) {
     CHECK(contains(controller.output, text));
     CHECK(contains(header(), text));
   }

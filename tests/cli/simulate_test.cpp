@@ -111,6 +111,7 @@ TEST_CASE("simulate: wrong command lines" * doctest::test_suite("long")) {
        "--inverse: serves a controller, and there is none; name one with --controller", 2},
       {"--in-car", "--in-car: serves a controller, and there is none", 2},
       {"--delay 2", "--delay: serves a controller, and there is none", 2},
+      {"--controller skyhook --delay 2", "--delay: is of the sensors of a car", 2},
       {"--controller mix1 --current 0.5",
        "--current: is where there is no controller, which chooses its own; leave it out", 2},
   };

@@ -240,7 +240,7 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
                      const VehicleWords& words) {
   if (words.sensors.delay > 0 && !words.sensors.in_car)
     throw Error(words.where, "a delay of the sensors, but ideal sensors, which have none",
-                "sensors as in a car (--in-car), or no delay");
+                "sensors as in a car (in_car), or no delay");
   Vehicle vehicle{.set = std::move(set), .sensors = words.sensors};
   if (!vehicle.set.verified)
     vehicle.notes.push_back("the numbers of " + vehicle.set.name +
@@ -264,12 +264,10 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
   for (const ChosenDamper& damper : chosen) {
     add(damper.notes, vehicle.notes);
     add(damper.warnings, vehicle.warnings);
-    if (!damper.is_passive() && drive.unit != DriveUnit::None &&
-        drive.high > damper.drive_max * (1 + 1e-9))
-      add({damper.name + ": a greatest drive of " + drive.text(drive.high) +
-           " is beyond what it is known for, " + drive.text(damper.drive_max) +
-           ": there its model extrapolates"},
-          vehicle.notes);
+    if (!damper.is_passive() && drive.unit != DriveUnit::None)
+      if (const std::string text = beyond_known_text(drive.high, damper.drive_max, drive.unit);
+          !text.empty())
+        add({damper.name + ": " + text}, vehicle.notes);
     vehicle.dampers.push_back(mount(damper, drive, words));
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);
@@ -281,6 +279,24 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
 }
 
 }  // namespace
+
+std::vector<IdleWord> idle_words(const VehicleWords& words) {
+  std::vector<IdleWord> idle;
+  if (!words.controller.empty()) {
+    if (words.current != 0)
+      idle.push_back(
+          {"current", "is where there is no controller, which chooses its own", "leave it out"});
+    return idle;
+  }
+  for (const auto& [key, is_said] : {std::pair{"inverse", !words.inverse.empty()},
+                                     {"force_loop", !words.force_loop.empty()},
+                                     {"in_car", words.sensors.in_car},
+                                     {"delay", words.sensors.delay > 0}})
+    if (is_said)
+      idle.push_back({key, "serves a controller, and there is none",
+                      "name one as 'controller', or leave it out"});
+  return idle;
+}
 
 Vehicle make_vehicle(const VehicleWords& words) {
   PlantSet set = load_plant(words);
