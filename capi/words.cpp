@@ -151,9 +151,8 @@ ExportWords read_export_options(const char* text) {
   if (precision != "double" && precision != "float")
     throw Error("options, precision", "is '" + precision + "'", "double or float");
   if (precision == "float") options.precision = CPrecision::Single;
-  if (!(options.sample_time >= 0 && options.sample_time <= 1))
-    throw Error("options, sample_time", "is " + format_number(options.sample_time),
-                "s, above 0 and at most 1; 0: that of the model's data");
+  if (options.sample_time != 0)
+    require_export_sample_time(options.sample_time, "options, sample_time");
 
   // Defaults that depend on the machine and on this build.
   if (options.compiler.empty()) options.compiler = usual_compiler();

@@ -272,12 +272,9 @@ std::vector<double> grid_of(const std::string& text, const std::string& option, 
 
 /// s; 0 where none is stated.
 double sample_time_of(const std::string& text) {
-  constexpr double kLongest = 1;  // s; 5 was meant to be 5 ms
   if (text.empty()) return 0;
   const double seconds = parse_quantity(text, "s", "--sample-time");
-  if (!(seconds > 0 && seconds <= kLongest))
-    throw Error("--sample-time", "a sample time of " + format_number(seconds) + " s",
-                "above 0 and at most 1 s, as 5ms");
+  require_export_sample_time(seconds, "--sample-time");
   return seconds;
 }
 

@@ -155,7 +155,8 @@ TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   complains(damper + "--to modelica --name record", "'record' has a meaning of its own");
   complains(damper + "--to onnx --sample-time=soon", "--sample-time");
   complains(damper + "--to c --sample-time=5",
-            "a sample time of 5 s; above 0 and at most 1 s, as 5ms");
+            "a sample time of 5 s; between 1 us and 1 s, as 5ms");
+  complains(damper + "--to c --sample-time=1e-30", "a sample time of 1e-30 s");
   complains(damper + "--to c --sample-time=0", "a sample time of 0 s");
   complains(damper + "--to onnx --precision half", "half");
   complains(damper + "--to onnx -o /proc/none", "/proc/none");

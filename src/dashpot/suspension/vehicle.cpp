@@ -123,8 +123,11 @@ std::string damping_note(const ChosenDamper& damper, const DampingRange& damping
 ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const DriveRange& drive,
                              const VehicleWords& words, std::vector<std::string>& notes) {
   ControlLimits limits{0, 0, drive.low, drive.high, words.sample_time};
-  if (!(words.sample_time > 0))
-    throw Error(words.where, "the controller's sample time is not above 0");
+  constexpr double kShortest = 1e-5, kLongest = 1;  // s
+  if (!(words.sample_time >= kShortest && words.sample_time <= kLongest))
+    throw Error(words.where,
+                "the controller's sample time is " + format_number(words.sample_time) + " s",
+                "between 10 us and 1 s");
 
   // The mean over those that are driven, with a note for each damping that is not stated.
   double driven = 0;
