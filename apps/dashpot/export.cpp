@@ -88,7 +88,7 @@ std::string formats_text() {
 }
 
 bool is_inverse(const std::string& path) {
-  if (path.empty()) return false;
+  if (std::error_code none; !std::filesystem::is_regular_file(path, none)) return false;
   const std::string text = read_file(path);
   if (!trim(text).starts_with('{')) return false;
   const Value document = parse_json(text, path);

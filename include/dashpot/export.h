@@ -55,7 +55,7 @@ struct ExportedFile {
   std::string name, content;
 };
 
-/// Throws Error(where, ...) at a sample time, s, that no controller has: 5 was meant to be 5 ms.
+/// Throws Error(where, ...) at a sample time, s, that no controller has: 1 was meant to be 1 ms.
 void require_export_sample_time(double seconds, const std::string& where);
 
 /// Adds files but those whose names are there: several formats have the same C code.

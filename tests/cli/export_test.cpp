@@ -154,8 +154,9 @@ TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   complains(damper + "--to c --sample-time=-1ms", "sample time");
   complains(damper + "--to modelica --name record", "'record' has a meaning of its own");
   complains(damper + "--to onnx --sample-time=soon", "--sample-time");
-  complains(damper + "--to c --sample-time=5",
-            "a sample time of 5 s; between 1 us and 1 s, as 5ms");
+  complains(damper + "--to c --sample-time=1",
+            "a sample time of 1 s; between 1 us and 0.1 s, as 5ms");
+  complains("spencer1997 --to c", "is a published damper, and no file; --parameters spencer1997");
   complains(damper + "--to c --sample-time=1e-30", "a sample time of 1e-30 s");
   complains(damper + "--to c --sample-time=0", "a sample time of 0 s");
   complains(damper + "--to onnx --precision half", "half");

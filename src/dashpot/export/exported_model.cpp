@@ -46,10 +46,10 @@ std::string usual_compiler() {
 }
 
 void require_export_sample_time(double seconds, const std::string& where) {
-  constexpr double kShortest = 1e-6, kLongest = 1;
+  constexpr double kShortest = 1e-6, kLongest = 0.1;
   if (!(seconds >= kShortest && seconds <= kLongest))
     throw Error(where, "a sample time of " + format_number(seconds) + " s",
-                "between 1 us and 1 s, as 5ms");
+                "between 1 us and 0.1 s, as 5ms");
 }
 
 double export_sample_time(const ExportedModel& model, const ExportOptions& options) {
