@@ -163,9 +163,7 @@ std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper
                                            Console& console) {
   if (!is_path(word)) return find_inverse(word).make(*damper.model, limits);
   InverseFile file = load_inverse(word);
-  if (file.drive_unit != damper.drive_unit)
-    throw Error(word, "gives " + to_string(file.drive_unit) + ", but the damper takes " +
-                          to_string(damper.drive_unit));
+  require_drive(file, damper.drive_unit, word);
   warn_outside(file.domain, word + "'s", damper, motion, console);
   return std::make_unique<HistoryNetwork>(std::move(file.network), limits);
 }

@@ -140,6 +140,27 @@ TEST_CASE("simulate: both traces as plain samples, for programs that draw") {
   CHECK(std::filesystem::file_size(samples + "/samples.f64") == columns * 1001 * sizeof(double));
 }
 
+TEST_CASE(
+    "simulate: a road that ends before the ride does is said, and so is an inverse of another "
+    "drive") {
+  const TemporaryFolder folder;
+  const std::string road =
+      "simulate --road measured,file=" +
+      folder.write("road.csv", "s [m],z [mm]\n0,0\n1,5\n2,3\n20,0\n").string() + ",speed=10";
+  CHECK(contains(run_dashpot(road + " --duration 4").output,
+                 "the road ends after 2 s of 4 s: from there on it is level"));
+  CHECK(!contains(run_dashpot(road).output, "the road ends"));
+
+  const std::string inverse = (folder.path() / "inverse.json").string();
+  REQUIRE(run_dashpot("invert --recordings " + small_campaign().string() +
+                      " --network history --output " + inverse)
+              .exit_code == 0);
+  const ProgramResult wrong =
+      run_dashpot("simulate --controller skyhook --duration 1 --inverse " + inverse);
+  CHECK(wrong.exit_code == 1);
+  CHECK(contains(wrong.output, "gives V, but the damper takes a number without a unit"));
+}
+
 TEST_CASE("simulate: the same bits on a processor without AVX-512" * doctest::test_suite("long")) {
   if (run_program("command -v qemu-x86_64").exit_code != 0) {
     MESSAGE("SKIPPED: no qemu-x86_64 is here");

@@ -155,7 +155,9 @@ std::shared_ptr<const InverseModel> make_inverse(const ChosenDamper& damper,
                              driver.lag_rate};
   if (words.inverse.find_first_of("./") == std::string::npos)
     return find_inverse(words.inverse, words.where).make(*damper.model, limits);
-  return std::make_shared<HistoryNetwork>(load_inverse(words.inverse).network, limits);
+  InverseFile file = load_inverse(words.inverse);
+  require_drive(file, damper.drive_unit, words.inverse);
+  return std::make_shared<HistoryNetwork>(std::move(file.network), limits);
 }
 
 /// A, that a damper has before anything moves.
