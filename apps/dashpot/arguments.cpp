@@ -108,9 +108,14 @@ void refuse_leftovers(const std::string& command, const std::vector<Option>& opt
                       const std::vector<std::string>& leftovers) {
   if (leftovers.empty()) return;
   const std::string word = leftovers.front().substr(0, leftovers.front().find('='));
-  if (word.front() != '-')
+  if (word.front() != '-') {
+    const bool takes_damper = std::ranges::any_of(options, [](const Option& option) {
+      return option.names == "--damper" && option.choices.empty();
+    });
     throw UsageError(command, "'" + word + "' is one argument too many",
-                     "give options as --name value");
+                     takes_damper && word.ends_with(".json") ? "a model file as --damper " + word
+                                                             : "give options as --name value");
+  }
   std::vector<std::string> known = {"--help"};
   for (const Option& option : options)
     if (!option.is_positional()) known.push_back(option.long_name());
