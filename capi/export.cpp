@@ -15,8 +15,7 @@ Value write_files(const ModelFile& file, const ExportWords& words) {
   const ExportedModel exported = exported_model(file);
   std::vector<ExportedFile> files;
   for (const std::string& format : words.formats)
-    std::ranges::move(find_exporter(format, "options, to").write(exported, words.options),
-                      std::back_inserter(files));
+    add_files(find_exporter(format, "options, to").write(exported, words.options), files);
   Value paths = Value::array();
   for (const ExportedFile& made : files) {
     const std::string path = (std::filesystem::path(words.folder) / made.name).string();

@@ -37,6 +37,9 @@ std::string report_text(const Trace& trace, const Vehicle& vehicle, const Ground
   std::ranges::copy(trace.warnings, std::back_inserter(warnings));
   std::ranges::move(domain_warnings(domain_use(vehicle, trace), RunOptions{}.allowed_outside),
                     std::back_inserter(warnings));
+  std::vector<std::string> notes = vehicle.notes;
+  if (std::string note = road_end_note(ground, options.duration); !note.empty())
+    notes.push_back(std::move(note));
   const Value report =
       Value::object({{"plant", vehicle.set.name},
                      {"dampers", Value::array(vehicle.damper_names)},
@@ -47,7 +50,7 @@ std::string report_text(const Trace& trace, const Vehicle& vehicle, const Ground
                      {"steps", trace.steps},
                      {"evaluations", trace.evaluations},
                      {"measures", measures_of(trace, vehicle, ground, options)},
-                     {"notes", Value::array(vehicle.notes)},
+                     {"notes", Value::array(notes)},
                      {"warnings", Value::array(warnings)}});
 
   return format_json(presentable(report));

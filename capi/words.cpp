@@ -45,20 +45,6 @@ int whole_int(ObjectReader& reader, std::string_view key, int fallback, int leas
   return static_cast<int>(std::min(whole(reader, key, fallback, least), kMost));
 }
 
-/// Refuses what would have no effect beside a controller, or without one, as the command line does.
-void require_effect(const VehicleWords& words) {
-  if (!words.controller.empty() && words.current > 0)
-    throw Error("options, current", "is where there is no controller, which chooses its own",
-                "leave it out");
-  if (!words.controller.empty()) return;
-  for (const auto& [key, is_said] : {std::pair{"inverse", !words.inverse.empty()},
-                                     {"in_car", words.sensors.in_car},
-                                     {"delay", words.sensors.delay > 0}})
-    if (is_said)
-      throw Error("options, " + std::string(key), "serves a controller, and there is none",
-                  "name one as \"controller\", or leave it out");
-}
-
 }  // namespace
 
 FitOptions read_fit_options(const char* text) {
@@ -165,9 +151,8 @@ ExportWords read_export_options(const char* text) {
   if (precision != "double" && precision != "float")
     throw Error("options, precision", "is '" + precision + "'", "double or float");
   if (precision == "float") options.precision = CPrecision::Single;
-  if (!(options.sample_time >= 0 && options.sample_time <= 1))
-    throw Error("options, sample_time", "is " + format_number(options.sample_time),
-                "s, above 0 and at most 1; 0: that of the model's data");
+  if (options.sample_time != 0)
+    require_export_sample_time(options.sample_time, "options, sample_time");
 
   // Defaults that depend on the machine and on this build.
   if (options.compiler.empty()) options.compiler = usual_compiler();
@@ -210,7 +195,8 @@ DriveOptions read_drive_options(const char* text) {
   require_at_least_0(out.output_step, "output_step", "s, 0 or more");
   require_at_least_0(words.current, "current", "A or V, 0 or more");
   require_at_least_0(words.current_max, "current_max", "A or V, 0 (the model's) or more");
-  require_effect(words);
+  for (const IdleWord& idle : idle_words(words))
+    throw Error("options, " + idle.key, idle.why, idle.right);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "arguments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <CLI/CLI.hpp>
@@ -10,12 +11,26 @@
 namespace dashpot::cli {
 namespace {
 
+/// ", in s" where the option's word for its value is a unit, else empty.
+std::string unit_words(const Option& option) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kUnits{{{"A", "A"},
+                                                                                 {"A/S", "A/s"},
+                                                                                 {"HZ", "Hz"},
+                                                                                 {"M/S", "m/s"},
+                                                                                 {"MM", "mm"},
+                                                                                 {"MS", "ms"},
+                                                                                 {"S", "s"}}};
+  for (const auto& [word, unit] : kUnits)
+    if (option.value == word) return ", in " + std::string(unit);
+  return {};
+}
+
 double number_in(const std::string& text, const Option& option, bool whole) {
   const std::optional<double> value = parse_number(text);
   if (!value || !std::isfinite(*value) || (whole && *value != std::floor(*value)))
     throw UsageError(option.long_name(),
                      "'" + text + "' is not a " + (whole ? "whole number" : "number"),
-                     whole ? "write it as 4" : "write it as 0.25");
+                     (whole ? "write it as 4" : "write it as 0.25") + unit_words(option));
   if (option.minimum && *value < *option.minimum)
     throw UsageError(option.long_name(), text + " is too small",
                      "give at least " + format_number(*option.minimum));
@@ -93,9 +108,14 @@ void refuse_leftovers(const std::string& command, const std::vector<Option>& opt
                       const std::vector<std::string>& leftovers) {
   if (leftovers.empty()) return;
   const std::string word = leftovers.front().substr(0, leftovers.front().find('='));
-  if (word.front() != '-')
+  if (word.front() != '-') {
+    const bool takes_damper = std::ranges::any_of(options, [](const Option& option) {
+      return option.names == "--damper" && option.choices.empty();
+    });
     throw UsageError(command, "'" + word + "' is one argument too many",
-                     "give options as --name value");
+                     takes_damper && word.ends_with(".json") ? "a model file as --damper " + word
+                                                             : "give options as --name value");
+  }
   std::vector<std::string> known = {"--help"};
   for (const Option& option : options)
     if (!option.is_positional()) known.push_back(option.long_name());

@@ -130,6 +130,8 @@ int run_bench(BenchSettings& settings, Console& console) {
   // The user reads which damper this was, and with which command to go on.
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
+  if (const std::string note = levels_note(settings.campaign, damper); !note.empty())
+    console.note(note);
   console.print(summary(campaign) + "\n\nRecordings  " + settings.folder + "/*.csv\nConditions  " +
                 statement.string() + "\nNext        dashpot identify " +
                 shell_quoted(settings.folder) + '\n');

@@ -269,6 +269,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   // What was recorded, and the command that goes on from it.
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
+  if (const std::string note = levels_note(campaign, damper); !note.empty()) console.note(note);
   std::string levels;
   for (const double level : options.levels)
     levels += (levels.empty() ? "" : ", ") + format_number(level);

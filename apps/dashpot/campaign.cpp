@@ -138,6 +138,12 @@ std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchO
   return bench_sines(options);
 }
 
+std::string levels_note(const CampaignSettings& settings, const ParameterSet& damper) {
+  const std::vector<double> levels = stated_levels(settings);
+  if (levels.empty()) return {};
+  return beyond_known_text(std::ranges::max(levels), damper.drive_max, damper.model.drive_unit());
+}
+
 std::vector<double> stated_levels(const CampaignSettings& settings) {
   std::vector<double> levels;
   for (const std::string& level : settings.levels) levels.push_back(parse_level(level));

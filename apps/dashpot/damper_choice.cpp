@@ -1,6 +1,7 @@
 #include "damper_choice.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "console.h"
 #include "dashpot/damper/parameter_set.h"
@@ -48,6 +49,13 @@ ModelFile load_damper_file(const DamperChoice& choice, const std::string& comman
                            Console& console) {
   if (choice.model.empty() == choice.parameters.empty())
     throw UsageError(command, "needs one damper", "give a model file, or --parameters NAME");
+
+  // A published damper has a name, and no file.
+  const std::vector<std::string> published = parameter_set_names();
+  if (std::ranges::find(published, choice.model) != published.end() &&
+      !std::filesystem::exists(choice.model))
+    throw UsageError(command, "'" + choice.model + "' is a published damper, and no file",
+                     "--parameters " + choice.model);
 
   ModelFile file;
   if (!choice.model.empty()) {

@@ -18,6 +18,7 @@
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_observer.h"
+#include "dashpot/export/c/c_source.h"
 #include "dashpot/export/fmu/fmu.h"
 #include "dashpot/export/tables/force_map.h"
 #include "dashpot/machine/found_noise.h"
@@ -87,7 +88,7 @@ std::string formats_text() {
 }
 
 bool is_inverse(const std::string& path) {
-  if (path.empty()) return false;
+  if (std::error_code none; !std::filesystem::is_regular_file(path, none)) return false;
   const std::string text = read_file(path);
   if (!trim(text).starts_with('{')) return false;
   const Value document = parse_json(text, path);
@@ -99,13 +100,6 @@ bool is_inverse(const std::string& path) {
 std::optional<CPrecision> precision_of(const ExportSettings& settings) {
   if (settings.precision.empty()) return {};
   return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
-}
-
-/// Adds files but those that are there: several formats have C code.
-void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
-  for (ExportedFile& file : written)
-    if (std::ranges::find(files, file.name, &ExportedFile::name) == files.end())
-      files.push_back(std::move(file));
 }
 
 std::vector<ExportedFile> damper_files(const ExportSettings& settings, const ExportOptions& options,
@@ -129,7 +123,7 @@ std::vector<ExportedFile> damper_files(const ExportSettings& settings, const Exp
     console.note("the code is of one damper of the family: " + describe(family->member()));
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    add(find_exporter(format, "--to").write(exported_model(file), options), files);
+    add_files(find_exporter(format, "--to").write(exported_model(file), options), files);
   return files;
 }
 
@@ -159,12 +153,12 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   const double sample_time = options.sample_time > 0 ? options.sample_time
                              : file.sample_time > 0  ? file.sample_time
                                                      : 1e-3;
+  const std::string origin = damper_origin(exported_model(file));
   const std::shared_ptr<const DamperModel> damper = std::move(file.model);
   auto observer = std::make_shared<const PlantObserver>(
       make_observer(damper, file.domain, setup, sample_time, observed));
-  return [observer, names = observer_names(setup, damper->name())](const ExportOptions& own) {
-    return c_observer_block(*observer, names, own);
-  };
+  return [observer, names = observer_names(setup, damper->name()), origin](
+             const ExportOptions& own) { return c_observer_block(*observer, names, origin, own); };
 }
 
 /// Options, and whether they were given.
@@ -234,7 +228,7 @@ std::vector<ExportedFile> exported_files(const ExportSettings& settings,
   if (settings.tunable) throw UsageError("--tunable", "is of a damper's model", "leave it out");
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    add(find_exporter(format, "--to").write_block(block, options), files);
+    add_files(find_exporter(format, "--to").write_block(block, options), files);
   return files;
 }
 
@@ -278,12 +272,9 @@ std::vector<double> grid_of(const std::string& text, const std::string& option, 
 
 /// s; 0 where none is stated.
 double sample_time_of(const std::string& text) {
-  constexpr double kLongest = 1;  // s; 5 was meant to be 5 ms
   if (text.empty()) return 0;
   const double seconds = parse_quantity(text, "s", "--sample-time");
-  if (!(seconds > 0 && seconds <= kLongest))
-    throw Error("--sample-time", "a sample time of " + format_number(seconds) + " s",
-                "above 0 and at most 1 s, as 5ms");
+  require_export_sample_time(seconds, "--sample-time");
   return seconds;
 }
 

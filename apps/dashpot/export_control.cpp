@@ -62,14 +62,11 @@ CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper,
   damper.lag_rate = choice.lag_rate;
   ModelFile file = load_damper_file(damper, "export", console);
   const ExportedModel known = exported_model(file);
-  const std::string origin =
-      "Of its damper: " + known.origin + ". " + known_text(known.domain, known.drive_unit);
-  const double greatest = known.domain.current_max;
-  if (damper.current_max > greatest * (1 + 1e-9))
-    console.note("a greatest drive of " + format_number(damper.current_max) + ' ' +
-                 unit_of(known.drive_unit) + " is beyond what the damper is known for, " +
-                 format_number(greatest) + ' ' + unit_of(known.drive_unit) +
-                 ": there its model extrapolates");
+  const std::string origin = damper_origin(known);
+  if (const std::string text =
+          beyond_known_text(damper.current_max, known.domain.current_max, known.drive_unit);
+      !text.empty())
+    console.note(text);
   const auto loaded = std::make_shared<const Damper>(damper_of(std::move(file), damper));
   const InverseLimits limits = limits_of(driver_of(*loaded, damper), sample_time(options));
 

@@ -104,20 +104,26 @@ Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverO
   return task;
 }
 
-/// Says where the motion, or what the coil may get, leaves the data that the model knows.
-void warn_beyond_data(const Damper& damper, const DriverOptions& driver, const Motion& motion,
-                      Console& console) {
-  if (!damper.domain) return;
-  const Domain& domain = *damper.domain;
+/// Says where the motion leaves the domain of the damper's model or of an inverse for it.
+void warn_outside(const Domain& domain, const std::string& whose, const Damper& damper,
+                  const Motion& motion, Console& console) {
   std::vector<DamperInput> inputs;
   for (std::size_t k = 0; k < motion.size(); ++k)
     inputs.push_back({.displacement = motion.displacement[k],
                       .velocity = motion.velocity[k],
                       .current = domain.current_min});
   for (const Extrapolation& e : extrapolations(*damper.model, domain, damper.drive_unit, {inputs}))
-    console.warn(percent_text(100 * e.share) + " % of the time the " + e.quantity +
-                 " is outside the model's range " + format_number(e.low, 3) + " ... " +
-                 format_number(e.high, 3) + " " + e.unit + ": it extrapolates there");
+    console.warn(percent_text(100 * e.share) + " % of the time the " + e.quantity + " is outside " +
+                 whose + " range " + format_number(e.low, 3) + " ... " + format_number(e.high, 3) +
+                 " " + e.unit + ": it extrapolates there");
+}
+
+/// Says where the motion, or what the coil may get, leaves the data that the model knows.
+void warn_beyond_data(const Damper& damper, const DriverOptions& driver, const Motion& motion,
+                      Console& console) {
+  if (!damper.domain) return;
+  const Domain& domain = *damper.domain;
+  warn_outside(domain, "the model's", damper, motion, console);
 
   constexpr double kRounding = 1e-9;
   if (driver.current_max > domain.current_max * (1 + kRounding))
@@ -150,14 +156,15 @@ double error_in_reach(const TrackedScheme& tracked) {
   return r.reachable.samples > 0 ? r.reachable.rmse : r.all.rmse;
 }
 
-/// A scheme made for the damper, or an inverse of its own from a file.
+/// A scheme made for the damper, or an inverse of its own from a file, which was taught over a
+/// range of motions.
 std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper& damper,
-                                           const InverseLimits& limits) {
+                                           const InverseLimits& limits, const Motion& motion,
+                                           Console& console) {
   if (!is_path(word)) return find_inverse(word).make(*damper.model, limits);
   InverseFile file = load_inverse(word);
-  if (file.drive_unit != damper.drive_unit)
-    throw Error(word, "gives " + to_string(file.drive_unit) + ", but the damper takes " +
-                          to_string(damper.drive_unit));
+  require_drive(file, damper.drive_unit, word);
+  warn_outside(file.domain, word + "'s", damper, motion, console);
   return std::make_unique<HistoryNetwork>(std::move(file.network), limits);
 }
 
@@ -172,7 +179,7 @@ std::vector<TrackedScheme> track_all(const TrackSettings& settings, const Damper
   for (const std::string& word : asked ? settings.inverses : inverse_names()) {
     console.check_stop();
     try {
-      const auto inverse = make_inverse(word, damper, limits);
+      const auto inverse = make_inverse(word, damper, limits, task.motion, console);
       const std::string name = is_path(word) ? std::filesystem::path(word).stem().string() : word;
       tracked.push_back({name, track(*damper.model, *inverse, driver, task.motion, task.wanted)});
     } catch (const Error& error) {

@@ -142,7 +142,11 @@ void require_effect(const VehicleChoice& choice, bool is_controlled, const std::
         throw UsageError(option, "serves a controller, and there is none",
                          "name one with --controller, or leave it out");
 
-  // With one, only another damper that the vehicle is compared with may keep a current.
+  if (choice.delay > 0 && !choice.in_car)
+    throw UsageError("--delay", "is of the sensors of a car, and ideal ones have none",
+                     "add --in-car, or leave it out");
+
+  // With a controller, only another damper that the vehicle is compared with may keep a current.
   const bool is_kept = !against.empty() && against != "none" && !against.starts_with("current=");
   if (is_controlled && choice.current > 0 && !is_kept)
     throw UsageError("--current", "is where there is no controller, which chooses its own",

@@ -30,4 +30,9 @@ DriveUnit parse_drive_unit(std::string_view text, const std::string& where);
 /// The name of the channel, and the word for the quantity: "voltage" for Volt, else "current".
 const std::string& drive_channel(DriveUnit unit);
 
+/// What to say of a greatest drive beyond the one up to which a damper is known, both in this unit:
+/// "a greatest drive of 9 A is beyond what the damper is known for, 1 A: there its model
+/// extrapolates". Empty where it is within.
+std::string beyond_known_text(double greatest, double known, DriveUnit unit);
+
 }  // namespace dashpot

@@ -55,6 +55,12 @@ struct ExportedFile {
   std::string name, content;
 };
 
+/// Throws Error(where, ...) at a sample time, s, that no controller has: 1 was meant to be 1 ms.
+void require_export_sample_time(double seconds, const std::string& where);
+
+/// Adds files but those whose names are there: several formats have the same C code.
+void add_files(std::vector<ExportedFile> more, std::vector<ExportedFile>& files);
+
 struct CBlock;
 /// An inverse or a controller, for options of an exporter's own.
 using CBlockMaker = std::function<CBlock(const ExportOptions&)>;

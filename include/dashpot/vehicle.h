@@ -36,6 +36,14 @@ struct VehicleWords {
   std::string where = "vehicle";  ///< stands in messages
 };
 
+/// A word that these would have without effect: what serves a controller where there is none, or a
+/// current where a controller chooses its own.
+struct IdleWord {
+  std::string key;         ///< "current", "inverse", "force_loop", "in_car" or "delay"
+  std::string why, right;  ///< "serves a controller, and there is none"
+};
+std::vector<IdleWord> idle_words(const VehicleWords& words);
+
 /// The vehicle that these words describe.
 struct Vehicle {
   PlantSet set;

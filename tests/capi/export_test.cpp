@@ -46,6 +46,23 @@ TEST_CASE("a model is exported as the program does it") {
   }
 }
 
+TEST_CASE("files that several formats share are written and listed once") {
+  const TemporaryFolder folder;
+  const Value options =
+      Value::object({{"to", Value::array(std::vector<std::string>{"c", "mex", "sfunction"})},
+                     {"folder", folder.path().string()},
+                     {"name", "front"}});
+  Text report;
+  REQUIRE(dashpot_export(published("spencer1997"), dashpot::format_json(options).c_str(),
+                         &report) == DASHPOT_OK);
+  const Value told = parse_json(report.handle, "report");
+  std::vector<std::string> names;
+  for (const Value& file : told.find("files")->items())
+    names.push_back(std::filesystem::path(file.as_string()).filename().string());
+  CHECK(names == std::vector<std::string>{"front.h", "front.c", "front_test.c", "front_mex.c",
+                                          "front_sfun.c"});
+}
+
 TEST_CASE("an export that cannot be says why, and writes nothing") {
   const TemporaryFolder folder;
   const std::string into = (folder.path() / "out").string();
@@ -62,9 +79,9 @@ TEST_CASE("an export that cannot be says why, and writes nothing") {
                  "no-such-compiler"));
   CHECK(contains(refusal(R"("to": ["c"], "precision": "half")"), "double or float"));
   CHECK(contains(refusal(R"("to": ["c"], "name": "2fast")"), "2fast"));
-  for (const char* time : {"-1", "5"})
+  for (const char* time : {"-1", "5", "1e-30"})
     CHECK(contains(refusal((R"("to": ["c"], "sample_time": )" + std::string(time)).c_str()),
-                   "sample_time: is " + std::string(time) + "; s, above 0 and at most 1"));
+                   "sample_time: a sample time of " + std::string(time) + " s; between 1 us"));
   CHECK(contains(refusal(R"("to": ["c"], "step": 1)"), "unknown key 'step'"));
   CHECK(!std::filesystem::exists(into));
   CHECK(contains(

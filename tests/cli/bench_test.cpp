@@ -50,6 +50,14 @@ TEST_CASE("bench: a level below 0 or none is refused" * doctest::test_suite("lon
                  "--levels: 'inf' is not a number; write them as 0,0.5,1"));
 }
 
+TEST_CASE("bench: a level beyond what the damper is known for is said") {
+  const TemporaryFolder folder;
+  const std::string bench = "bench --motions 5x2 --cycles 1 --output " + folder.path().string();
+  CHECK(contains(run_dashpot(bench + " --levels 1,9").output,
+                 "a greatest drive of 9 V is beyond what the damper is known for, 2.25 V"));
+  CHECK(!contains(run_dashpot(bench + " --levels 1,2").output, "beyond"));
+}
+
 TEST_CASE("bench: a motion too fast to be sampled is refused with the limit") {
   const ProgramResult result = run_dashpot("bench --motions 5x90 --levels 1 --output /tmp/never");
   CHECK(result.exit_code == 1);

@@ -102,9 +102,10 @@ TEST_CASE(
   const ProgramResult controller =
       run_dashpot("export --controller skyhook --damper vrths_mr_arctan --current-max 9" + to);
   CAPTURE(controller.output);
-  for (const char* text : {"savaresi_spelta are an example: recalled, not looked up",
-                           "vrths_mr_arctan: it feeds energy into motions",
-                           "a greatest drive of 9 A is beyond what it is known for, 1 A"}) {
+  for (const char* text :
+       {"savaresi_spelta are an example: recalled, not looked up",
+        "vrths_mr_arctan: it feeds energy into motions",
+        "vrths_mr_arctan: a greatest drive of 9 A is beyond what the damper is known for, 1 A"}) {
     CHECK(contains(controller.output, text));
     CHECK(contains(header(), text));
   }
@@ -153,8 +154,10 @@ TEST_CASE("export says what is wrong" * doctest::test_suite("long")) {
   complains(damper + "--to c --sample-time=-1ms", "sample time");
   complains(damper + "--to modelica --name record", "'record' has a meaning of its own");
   complains(damper + "--to onnx --sample-time=soon", "--sample-time");
-  complains(damper + "--to c --sample-time=5",
-            "a sample time of 5 s; above 0 and at most 1 s, as 5ms");
+  complains(damper + "--to c --sample-time=1",
+            "a sample time of 1 s; between 1 us and 0.1 s, as 5ms");
+  complains("spencer1997 --to c", "is a published damper, and no file; --parameters spencer1997");
+  complains(damper + "--to c --sample-time=1e-30", "a sample time of 1e-30 s");
   complains(damper + "--to c --sample-time=0", "a sample time of 0 s");
   complains(damper + "--to onnx --precision half", "half");
   complains(damper + "--to onnx -o /proc/none", "/proc/none");

@@ -150,6 +150,8 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right" *
       {"identify data --starts 0", "--starts: 0 is too small; give at least 1"},
       {"identify data --starts 99999999999", "--starts: 99999999999 is too large"},
       {"identify data --velocity-cutoff nan", "--velocity-cutoff: 'nan' is not a number"},
+      {"simulate model.json", "'model.json' is one argument too many; a model file as --damper"},
+      {"simulate --duration 10s", "--duration: '10s' is not a number; write it as 0.25, in s"},
       {"identify data --models bimgham",
        "--models: unknown model 'bimgham'; did you mean 'bingham'?"},
       {"identify data --force-offset some", "--force-offset: unknown value 'some'"},

@@ -26,6 +26,12 @@ TEST_CASE("invert: a file that track follows with, near the search on the model"
   REQUIRE(schemes.size() == 3);
   CHECK(schemes[1].find("inverse")->as_string() == "mine");
   CHECK(schemes[1].find("reachable")->find("rms_span_percent")->as_number() < 5);
+
+  // Motions beyond what it was taught are said.
+  CHECK(contains(
+      run_dashpot("track --parameters kwok2006 --duration 3 --amplitude 100 --inverse " + file)
+          .output,
+      "the displacement is outside " + file + "'s range"));
 }
 
 TEST_CASE("invert: recordings teach it, and what was not measured is said" *

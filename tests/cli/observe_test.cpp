@@ -142,7 +142,9 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
        {std::pair{"--levels 0,1,2 --hold 99 --duration 2",
                   "--hold: 3 levels of 99 s each do not fit into a ride of 2 s; --duration 297"},
         {"--wear force=-2", "--wear: force is -2, more than the whole; force=-0.1, 10 % less"},
-        {"--wear force=-0.1,force=-0.2", "--wear: force is stated twice"}}) {
+        {"--wear force=-0.1,force=-0.2", "--wear: force is stated twice"},
+        {"--duration 1e30", "a ride would have 5e+32 samples; at most 1e+07"},
+        {"--hold 1e-30", "--hold: 1e-30 s is less than a sample; 0.002 s or more"}}) {
     const ProgramResult refused =
         run_dashpot("bench --in " + car + ' ' + option + " --output " + again);
     CHECK(contains(refused.output, said));
@@ -233,4 +235,5 @@ TEST_CASE("observe: dampers of a half car by the names of their struts" *
                   " --force-error 5@0.01 --to c --name cells --output " + c);
   CHECK(exported.exit_code == 0);
   CHECK(contains(read_file(c + "/cells.h"), "rear_damper_force (N)"));
+  CHECK(contains(read_file(c + "/cells.h"), "Of its damper: "));
 }

@@ -50,6 +50,8 @@ TEST_CASE("ride: wrong command lines" * doctest::test_suite("long")) {
     int exit_code;
   } cases[] = {
       {"--controllers skyhok", "vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?", 1},
+      {"--controllers skyhook,mix1", "'mix1' is another controller, and a comma begins a setting",
+       1},
       {"--frequencies 2,x", "--frequencies", 1},
       {"--frequencies 2,1", "vehicle: its frequencies do not rise from above 0", 1},
       {"--held 1", "--held: 1 is too small; give at least 2", 2},

@@ -96,8 +96,8 @@ TEST_CASE("simulate: wrong command lines" * doctest::test_suite("long")) {
       {"--plant quartercar", "unknown plant 'quartercar'; did you mean 'quarter_car'?", 1},
       {"--road isso8608",
        "--road: unknown motion of the ground 'isso8608'; did you mean 'iso8608'?", 1},
-      {"--controller mix1 --sample-time 0", "vehicle: the controller's sample time is not above 0",
-       1},
+      {"--controller mix1 --sample-time 0",
+       "vehicle: the controller's sample time is 0 s; between 10 us and 1 s", 1},
       {"--controller mix1 --max-step 5",
        "simulation: its step is longer than the controller's sample time; at most 0.001 s", 1},
       {"--duration -1", "--duration: -1 is too small", 2},
@@ -111,6 +111,7 @@ TEST_CASE("simulate: wrong command lines" * doctest::test_suite("long")) {
        "--inverse: serves a controller, and there is none; name one with --controller", 2},
       {"--in-car", "--in-car: serves a controller, and there is none", 2},
       {"--delay 2", "--delay: serves a controller, and there is none", 2},
+      {"--controller skyhook --delay 2", "--delay: is of the sensors of a car", 2},
       {"--controller mix1 --current 0.5",
        "--current: is where there is no controller, which chooses its own; leave it out", 2},
   };
@@ -137,6 +138,27 @@ TEST_CASE("simulate: both traces as plain samples, for programs that draw") {
     columns += run.find("columns")->items().size();
   }
   CHECK(std::filesystem::file_size(samples + "/samples.f64") == columns * 1001 * sizeof(double));
+}
+
+TEST_CASE(
+    "simulate: a road that ends before the ride does is said, and so is an inverse of another "
+    "drive") {
+  const TemporaryFolder folder;
+  const std::string road =
+      "simulate --road measured,file=" +
+      folder.write("road.csv", "s [m],z [mm]\n0,0\n1,5\n2,3\n20,0\n").string() + ",speed=10";
+  CHECK(contains(run_dashpot(road + " --duration 4").output,
+                 "the road ends after 2 s of 4 s: from there on it is level"));
+  CHECK(!contains(run_dashpot(road).output, "the road ends"));
+
+  const std::string inverse = (folder.path() / "inverse.json").string();
+  REQUIRE(run_dashpot("invert --recordings " + small_campaign().string() +
+                      " --network history --output " + inverse)
+              .exit_code == 0);
+  const ProgramResult wrong =
+      run_dashpot("simulate --controller skyhook --duration 1 --inverse " + inverse);
+  CHECK(wrong.exit_code == 1);
+  CHECK(contains(wrong.output, "gives V, but the damper takes a number without a unit"));
 }
 
 TEST_CASE("simulate: the same bits on a processor without AVX-512" * doctest::test_suite("long")) {

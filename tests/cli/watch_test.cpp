@@ -135,7 +135,7 @@ TEST_CASE("watch: what cannot be is said before the work" * doctest::test_suite(
   CHECK(contains(refusal(""), "--in: is missing"));
   CHECK(contains(refusal("--in " + plant + " --tracked forse"), "forse"));
   CHECK(contains(refusal("--in " + plant + " --false-alarms 2"), "--false-alarms: must lie"));
-  CHECK(contains(refusal("--in " + plant + " --level y"), "'y' is no sensor of the plant"));
+  CHECK(contains(refusal("--in " + plant + " --level y"), "'y' is no sensor of the plant; "));
   CHECK(contains(refusal("--in " + plant + " --reference 2"), "is 2 days; 5 or more"));
   CHECK(contains(refusal("--in " + plant + " " + day), "is the same file as"));
 }

@@ -51,7 +51,7 @@ TEST_CASE("model files that cannot be used" * doctest::test_suite("long")) {
        {"m.json:", "not valid JSON"}},
       {"empty", {{"m.json", ""}}, run, 1, {"m.json:1: is not valid JSON"}},
       {"deep", {{"m.json", std::string(100000, '[')}}, run, 1, {"m.json: is nested more than"}},
-      {"a folder", {}, "evaluate DIR DIR", 1, {"is a folder, not a file"}},
+      {"a folder", {}, "evaluate DIR DIR", 1, {"is a folder, not a file; one of the model files"}},
   };
   for (const Wrong& wrong : table) check(wrong);
 }

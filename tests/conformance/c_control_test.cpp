@@ -51,6 +51,50 @@ TEST_CASE(
   check_that_it_runs(folder, kAsTheTests);
 }
 
+TEST_CASE("exported inverses: without a measured force only those that need one keep the current") {
+  if (!is_there("cc")) return;
+  const TemporaryFolder folder;
+  for (const BlockCase& one : inverse_cases()) {
+    if (!one.name.starts_with("bingham_") || one.name.ends_with("_lag")) continue;
+    const bool needs = one.name.ends_with("optimal") || one.name.ends_with("signum");
+    const std::vector<ExportedFile> files = write_c_block(one.block({}), "");
+    CHECK((files[0].content.find("this scheme needs it") != std::string::npos) == needs);
+    for (const ExportedFile& file : files) folder.write(file.name, file.content);
+
+    // One with a measured force that is no number, one with a force.
+    std::string test = R"(#include <math.h>
+#include "x.h"
+int main(void) {
+  x_model with, without;
+  int k, held = 0;
+  x_init(&with);
+  x_init(&without);
+  for (k = 0; k < 100; ++k) {
+    const double wave = sin(0.1 * k);
+    x_input input = {800 * wave, 0.002 * wave, 0.1 * wave, 0.4, 100};
+    const double right = x_step(&with, &input);
+    double command;
+    input.measured = (k < 50) ? NAN : 100;
+    command = x_step(&without, &input);
+    if (k >= 50 && command != right) return 1;
+    if (k < 50 && command != right) ++held;
+    if (k < 50 && NEEDS && command != 0.4) return 2;
+  }
+  return ((held > 0) == NEEDS) ? 0 : 3;
+}
+)";
+    const auto put = [&](const std::string& from, const std::string& to) {
+      for (std::size_t at = 0; (at = test.find(from, at)) != std::string::npos; at += to.size())
+        test.replace(at, from.size(), to);
+    };
+    put("NEEDS", needs ? "1" : "0");
+    put("x_", one.name + '_');
+    put("x.h", one.name + ".h");
+    folder.write(one.name + "_test.c", test);
+  }
+  check_that_it_runs(folder, kAsTheTests);
+}
+
 TEST_CASE("exported C ships nothing that only the library needs" * doctest::test_suite("long")) {
   std::string all;
   for (const BlockCase& one : block_cases())

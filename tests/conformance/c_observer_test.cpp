@@ -11,8 +11,8 @@ TEST_CASE("exported C of an observer: the library's estimates in double and sing
   const auto write = [&](const std::string& stem, const ExampleObserver& example) {
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       const std::string name = stem + (precision == CPrecision::Single ? "_float" : "_double");
-      const CBlock block =
-          c_observer_block(example.observer, example.names, {.name = name, .precision = precision});
+      const CBlock block = c_observer_block(example.observer, example.names, "",
+                                            {.name = name, .precision = precision});
       CHECK(block.tolerance == (precision == CPrecision::Single ? 1e-3 : 1e-9));
       for (const ExportedFile& file : write_c_block(block, ""))
         folder.write(file.name, file.content);

@@ -191,7 +191,7 @@ void write_observers(const TemporaryFolder& folder) {
       const std::string prefix =
           std::string(damper) + (precision == CPrecision::Single ? "_float" : "_double");
       add_block(folder, board, prefix, precision,
-                c_observer_block(example.observer, example.names,
+                c_observer_block(example.observer, example.names, "",
                                  {.name = prefix, .precision = precision}));
     }
   }

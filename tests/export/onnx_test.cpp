@@ -138,9 +138,8 @@ TEST_CASE(
   REQUIRE(files.size() == 1);
   CHECK(files[0].name == "heaviside_inverse.onnx");
   const onnx::ModelProto model = parsed(files[0].content);
-  CHECK(
-      faces(model.graph().input()) ==
-      "wanted[batch,1] displacement[batch,1] velocity[batch,1] current[batch,1] measured[batch,1]");
+  CHECK(faces(model.graph().input()) ==
+        "wanted[batch,1] displacement[batch,1] velocity[batch,1] current[batch,1]");
   CHECK(faces(model.graph().output()) == "command[batch,1]");
   CHECK(model.graph().input(0).type().tensor_type().elem_type() == onnx::TensorProto::FLOAT);
 }

@@ -326,6 +326,24 @@ TEST_CASE("inspection: channels of every record, and both velocities") {
   CHECK(contains(html_document(document), "Force against velocity"));
 }
 
+TEST_CASE("inspection: files whose columns were understood alike stand once on the page") {
+  Dataset dataset = example_ranking().dataset;
+  dataset.readings.clear();
+  for (const char* file : {"a/run_1.csv", "a/run_2.csv", "a/run_3.csv", "a/other.csv"})
+    for (const char* column : {"x [mm]", "F [N]"})
+      dataset.readings.push_back(
+          {.file = file,
+           .column = column,
+           .channel = column[0] == 'x' ? "displacement" : "force",
+           .basis = file == std::string("a/other.csv") ? "stated" : "header"});
+  const Document document = inspection_document({dataset, {}, "dashpot inspect demo", "", ""});
+  const DocumentTable& columns = document.sections[2].tables[0];
+  REQUIRE(columns.rows.size() == 4);
+  CHECK(columns.rows[1][0] == "run_1.csv and 2 more like it");
+  CHECK(columns.rows[2][0] == "other.csv");
+  CHECK(at(document.data, "columns.7.file").as_string() == "a/other.csv");
+}
+
 TEST_CASE("a document without data gives programs its words and tables") {
   Document document{.title = "two", .subtitle = {}, .verdict = "both", .sections = {}};
   document.sections.push_back({.name = "one",

@@ -231,7 +231,7 @@ TEST_CASE("vehicles that cannot be are refused, in words") {
   late.sensors.delay = 0.005;
   CHECK(refusal(late) ==
         "vehicle: a delay of the sensors, but ideal sensors, which have none; sensors as in a car "
-        "(--in-car), or no delay");
+        "(in_car), or no delay");
   CHECK(refusal({.controller = "skyhook,crossover=2Hz"}) ==
         "vehicle: skyhook has no parameter 'crossover'; it has none at all");
   CHECK(refusal({.dampers = {"ideal,lag_rate=50Hz"}}).find("'Hz' is not a unit of a rate") !=

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -31,6 +32,14 @@ DriveUnit parse_drive_unit(std::string_view text, const std::string& where) {
 const std::string& drive_channel(DriveUnit unit) {
   static const std::string kCurrent = "current", kVoltage = "voltage";
   return unit == DriveUnit::Volt ? kVoltage : kCurrent;
+}
+
+std::string beyond_known_text(double greatest, double known, DriveUnit unit) {
+  if (!(greatest > known * (1 + 1e-9))) return {};
+  const std::string counted = unit == DriveUnit::None ? "" : ' ' + to_string(unit);
+  return "a greatest drive of " + format_number(greatest) + counted +
+         " is beyond what the damper is known for, " + format_number(known) + counted +
+         ": there its model extrapolates";
 }
 
 }  // namespace dashpot

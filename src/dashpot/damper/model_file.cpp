@@ -110,6 +110,10 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
 }
 
 ModelFile load_model(const std::filesystem::path& path) {
+  if (std::error_code none; std::filesystem::is_directory(path, none))
+    throw Error(path.string(), "is a folder, not a file",
+                "one of the model files in it, as 'dashpot identify' leaves them in its folder "
+                "models");
   return parse_model(read_file(path), path.string());
 }
 

@@ -45,6 +45,13 @@ std::string usual_compiler() {
   return usual && *usual != '\0' ? usual : "cc";
 }
 
+void require_export_sample_time(double seconds, const std::string& where) {
+  constexpr double kShortest = 1e-6, kLongest = 0.1;
+  if (!(seconds >= kShortest && seconds <= kLongest))
+    throw Error(where, "a sample time of " + format_number(seconds) + " s",
+                "between 1 us and 0.1 s, as 5ms");
+}
+
 double export_sample_time(const ExportedModel& model, const ExportOptions& options) {
   constexpr double kUsual = 1e-3;
   for (const double time : {options.sample_time, model.model.feedback_step(), model.sample_time}) {

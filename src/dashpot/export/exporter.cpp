@@ -54,6 +54,12 @@ constexpr std::array kExporters{
 
 }  // namespace
 
+void add_files(std::vector<ExportedFile> more, std::vector<ExportedFile>& files) {
+  for (ExportedFile& file : more)
+    if (std::ranges::find(files, file.name, &ExportedFile::name) == files.end())
+      files.push_back(std::move(file));
+}
+
 std::span<const Exporter> exporters() { return kExporters; }
 
 const Exporter& find_exporter(std::string_view name, const std::string& where) {

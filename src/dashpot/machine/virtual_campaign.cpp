@@ -185,6 +185,13 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
   for (const DamperModel* damper : dampers)
     if (!damper->flows())
       throw Error(damper->name(), "its states have no rates", "a published parameter set");
+  constexpr double kMostSamples = 1e7;
+  if (const double samples = options.duration * options.sample_rate; !(samples <= kMostSamples))
+    throw Error("virtual rides", "a ride would have " + format_number(samples) + " samples",
+                "at most " + format_number(kMostSamples) + ": a shorter one or a lower rate");
+  if (options.hold > 0 && options.hold * options.sample_rate < 1)
+    throw Error("--hold", format_number(options.hold) + " s is less than a sample",
+                format_number(1 / options.sample_rate) + " s or more");
   const double held = options.hold * static_cast<double>(options.levels.size());
   if (options.levels.size() > 1 && held > options.duration)
     throw Error("--hold",

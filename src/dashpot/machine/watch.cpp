@@ -151,9 +151,12 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
   if (options.chart.reference < fewest)
     throw Error("reference", "is " + std::to_string(options.chart.reference) + " days",
                 std::to_string(fewest) + " or more, from which the healthy scatter is learnt");
-  if (!options.level.empty() &&
-      std::ranges::find(setup.sensors, options.level, &PlantSensor::channel) == setup.sensors.end())
-    throw Error("level", "'" + options.level + "' is no sensor of the plant");
+  if (options.level.empty()) return;
+  std::vector<std::string> sensors;
+  for (const PlantSensor& sensor : setup.sensors) sensors.push_back(sensor.channel);
+  if (std::ranges::find(sensors, options.level) == sensors.end())
+    throw Error("level", "'" + options.level + "' is no sensor of the plant",
+                suggest(options.level, sensors));
 }
 
 WatchedPlant watched_plant(ObservedDampers dampers, InPlantSetup setup,

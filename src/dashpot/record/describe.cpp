@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 
 #include "dashpot/base/text.h"
 #include "dashpot/record/doubts.h"
@@ -69,36 +70,10 @@ std::string conversion(const ColumnReading& reading) {
   return "(raw - " + format_number(reading.raw_offset, 6) + ") " + text;
 }
 
-/// The readings of one file as rows; files with the same rows are shown once.
-struct Understood {
-  std::vector<Row> rows;
-  std::vector<std::string> files;
-};
-
-std::vector<Understood> group_readings(const std::vector<ColumnReading>& readings) {
-  std::vector<Understood> groups, files;
-  for (const ColumnReading& reading : readings) {
-    const std::string name = std::filesystem::path(reading.file).filename().string();
-    if (files.empty() || files.back().files.front() != name) files.push_back({{}, {name}});
-
-    Row row{reading.column, reading.channel.empty() ? "-" : reading.channel, reading.unit,
-            conversion(reading), reading.basis};
-    std::vector<Row>& rows = files.back().rows;
-    // The parts of one file are read alike.
-    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
-  }
-
-  // Files that were understood alike become one group.
-  for (Understood& file : files) {
-    const auto same = std::find_if(groups.begin(), groups.end(),
-                                   [&](const Understood& g) { return g.rows == file.rows; });
-    if (same == groups.end()) {
-      groups.push_back(std::move(file));
-    } else {
-      same->files.push_back(file.files.front());
-    }
-  }
-  return groups;
+/// A column as a row of the table that tells how a file was understood.
+Row reading_row(const ColumnReading& reading) {
+  return {reading.column, reading.channel.empty() ? "-" : reading.channel, reading.unit,
+          conversion(reading), reading.basis};
 }
 
 std::string range(const Record& record, std::string_view channel, double scale) {
@@ -220,6 +195,37 @@ std::string note_list(const Dataset& dataset) {
 
 }  // namespace
 
+std::string FilesAlike::heading() const {
+  const std::string others = std::to_string(files.size() - 1);
+  return files.front() + (files.size() > 1 ? " and " + others + " more like it" : "");
+}
+
+std::vector<FilesAlike> files_alike(const std::vector<ColumnReading>& readings) {
+  std::vector<FilesAlike> groups, files;
+  for (const ColumnReading& reading : readings) {
+    const std::string name = std::filesystem::path(reading.file).filename().string();
+    if (files.empty() || files.back().files.front() != name) files.push_back({{name}, {}});
+
+    // The parts of one file are read alike.
+    std::vector<ColumnReading>& columns = files.back().columns;
+    if (std::ranges::find(columns, reading_row(reading), reading_row) == columns.end())
+      columns.push_back(reading);
+  }
+
+  // Files that were understood alike become one group.
+  for (FilesAlike& file : files) {
+    const auto same = std::ranges::find_if(groups, [&](const FilesAlike& group) {
+      return std::ranges::equal(group.columns, file.columns, {}, reading_row, reading_row);
+    });
+    if (same == groups.end()) {
+      groups.push_back(std::move(file));
+    } else {
+      same->files.push_back(file.files.front());
+    }
+  }
+  return groups;
+}
+
 std::string describe(const Dataset& dataset) { return describe(dataset, PrintUnits()); }
 
 std::string describe(const Dataset& dataset, const PrintUnits& units) {
@@ -229,13 +235,10 @@ std::string describe(const Dataset& dataset, const PrintUnits& units) {
                     (files == 1 ? " file\n" : " files\n");
   if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
 
-  for (const Understood& group : group_readings(dataset.readings)) {
-    out.append("\n").append(group.files.front());
-    if (group.files.size() > 1)
-      out += " and " + std::to_string(group.files.size() - 1) + " more like it";
+  for (const FilesAlike& group : files_alike(dataset.readings)) {
     std::vector<Row> rows{{"column", "channel", "unit", "to SI", "why"}};
-    rows.insert(rows.end(), group.rows.begin(), group.rows.end());
-    out.append("\n").append(align(rows));
+    std::ranges::transform(group.columns, std::back_inserter(rows), reading_row);
+    out.append("\n").append(group.heading()).append("\n").append(align(rows));
   }
   out.append("\n").append(record_table(dataset, units)).append(note_list(dataset));
   return out;

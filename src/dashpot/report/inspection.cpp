@@ -184,12 +184,13 @@ DocumentTable record_table(const Dataset& dataset) {
 DocumentTable reading_table(const Dataset& dataset) {
   DocumentTable table{
       .title = {},
-      .columns = {{"File"}, {"Column"}, {"Channel"}, {"Unit"}, {"Factor to SI", true}, {"Basis"}},
+      .columns = {{"Files"}, {"Column"}, {"Channel"}, {"Unit"}, {"Factor to SI", true}, {"Basis"}},
       .rows = {},
       .audience = Audience::Page};
-  for (const ColumnReading& r : dataset.readings)
-    table.rows.push_back({r.file, r.column, r.channel.empty() ? "–" : r.channel, r.unit,
-                          number_text(r.factor, 6), r.basis});
+  for (const FilesAlike& group : files_alike(dataset.readings))
+    for (const ColumnReading& r : group.columns)
+      table.rows.push_back({group.heading(), r.column, r.channel.empty() ? "–" : r.channel, r.unit,
+                            number_text(r.factor, 6), r.basis});
   return table;
 }
 

@@ -81,7 +81,8 @@ std::vector<std::string> run_remarks(const std::vector<const SimulatedRun*>& run
   for (const SimulatedRun* run : runs)
     for (const std::string& warning : run->warnings) add(warning_of(*run, warning));
   for (const SimulatedRun* run : runs)
-    for (const std::string& note : run->vehicle->notes) add(note);
+    for (const std::vector<std::string>& notes : {run->notes, run->vehicle->notes})
+      for (const std::string& note : notes) add(note);
   return remarks;
 }
 

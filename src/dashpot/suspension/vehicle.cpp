@@ -123,8 +123,11 @@ std::string damping_note(const ChosenDamper& damper, const DampingRange& damping
 ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const DriveRange& drive,
                              const VehicleWords& words, std::vector<std::string>& notes) {
   ControlLimits limits{0, 0, drive.low, drive.high, words.sample_time};
-  if (!(words.sample_time > 0))
-    throw Error(words.where, "the controller's sample time is not above 0");
+  constexpr double kShortest = 1e-5, kLongest = 1;  // s
+  if (!(words.sample_time >= kShortest && words.sample_time <= kLongest))
+    throw Error(words.where,
+                "the controller's sample time is " + format_number(words.sample_time) + " s",
+                "between 10 us and 1 s");
 
   // The mean over those that are driven, with a note for each damping that is not stated.
   double driven = 0;
@@ -152,7 +155,9 @@ std::shared_ptr<const InverseModel> make_inverse(const ChosenDamper& damper,
                              driver.lag_rate};
   if (words.inverse.find_first_of("./") == std::string::npos)
     return find_inverse(words.inverse, words.where).make(*damper.model, limits);
-  return std::make_shared<HistoryNetwork>(load_inverse(words.inverse).network, limits);
+  InverseFile file = load_inverse(words.inverse);
+  require_drive(file, damper.drive_unit, words.inverse);
+  return std::make_shared<HistoryNetwork>(std::move(file.network), limits);
 }
 
 /// A, that a damper has before anything moves.
@@ -240,7 +245,7 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
                      const VehicleWords& words) {
   if (words.sensors.delay > 0 && !words.sensors.in_car)
     throw Error(words.where, "a delay of the sensors, but ideal sensors, which have none",
-                "sensors as in a car (--in-car), or no delay");
+                "sensors as in a car (in_car), or no delay");
   Vehicle vehicle{.set = std::move(set), .sensors = words.sensors};
   if (!vehicle.set.verified)
     vehicle.notes.push_back("the numbers of " + vehicle.set.name +
@@ -264,12 +269,10 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
   for (const ChosenDamper& damper : chosen) {
     add(damper.notes, vehicle.notes);
     add(damper.warnings, vehicle.warnings);
-    if (!damper.is_passive() && drive.unit != DriveUnit::None &&
-        drive.high > damper.drive_max * (1 + 1e-9))
-      add({damper.name + ": a greatest drive of " + drive.text(drive.high) +
-           " is beyond what it is known for, " + drive.text(damper.drive_max) +
-           ": there its model extrapolates"},
-          vehicle.notes);
+    if (!damper.is_passive() && drive.unit != DriveUnit::None)
+      if (const std::string text = beyond_known_text(drive.high, damper.drive_max, drive.unit);
+          !text.empty())
+        add({damper.name + ": " + text}, vehicle.notes);
     vehicle.dampers.push_back(mount(damper, drive, words));
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);
@@ -281,6 +284,24 @@ Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
 }
 
 }  // namespace
+
+std::vector<IdleWord> idle_words(const VehicleWords& words) {
+  std::vector<IdleWord> idle;
+  if (!words.controller.empty()) {
+    if (words.current != 0)
+      idle.push_back(
+          {"current", "is where there is no controller, which chooses its own", "leave it out"});
+    return idle;
+  }
+  for (const auto& [key, is_said] : {std::pair{"inverse", !words.inverse.empty()},
+                                     {"force_loop", !words.force_loop.empty()},
+                                     {"in_car", words.sensors.in_car},
+                                     {"delay", words.sensors.delay > 0}})
+    if (is_said)
+      idle.push_back({key, "serves a controller, and there is none",
+                      "name one as 'controller', or leave it out"});
+  return idle;
+}
 
 Vehicle make_vehicle(const VehicleWords& words) {
   PlantSet set = load_plant(words);

@@ -68,6 +68,11 @@ TEST_CASE("input that is not finite keeps the present current, and the inverse r
     CHECK(inverse.command({.wanted = 100, .velocity = bad, .current = 5}, state) == 2.25);
     CHECK(inverse.command({.wanted = 100, .velocity = 0.1, .current = bad}, state) >= 0);
   }
+
+  // It looks at no measured force.
+  std::vector<double> same = state;
+  CHECK(inverse.command({.wanted = 300, .velocity = 0.1, .measured = nan}, state) ==
+        inverse.command({.wanted = 300, .velocity = 0.1, .measured = 200}, same));
   CHECK(std::isfinite(
       inverse.command({.wanted = 100, .displacement = 1e300, .velocity = -1e300}, state)));
   for (int k = 0; k < 200; ++k)

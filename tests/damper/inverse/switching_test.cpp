@@ -45,6 +45,15 @@ TEST_CASE("signum: in proportion to the missing force, full at a tenth of the la
   CHECK(command(Rule::Signum, 1000, 0) == 0);
 }
 
+TEST_CASE("without a measured force, schemes that need none work and the others keep the current") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  CHECK(command(Rule::Heaviside, 500, none, 0.1) == 2.25);
+  for (const Rule rule : {Rule::ClippedOptimal, Rule::ModifiedClippedOptimal, Rule::Signum}) {
+    const SwitchingInverse inverse(rule, kVolts, 1500);
+    CHECK(first_command(inverse, {.wanted = 500, .current = 0.7, .measured = none}) == 0.7);
+  }
+}
+
 TEST_CASE("a largest force that is none is refused") {
   CHECK(message_of([] { SwitchingInverse(Rule::Signum, kVolts, 0); }) ==
         "signum: the largest force of the damper must be a number above 0");

@@ -1,5 +1,6 @@
 #include "dashpot/record/readers/csv.h"
 
+#include <cmath>
 #include <zlib.h>
 
 #include "dashpot/base/random.h"
@@ -196,6 +197,26 @@ TEST_CASE("whole numbers in groups of three are no decimals") {
   CHECK(read_text("t;F\n0,005;987\n0,010;1,124\n").columns[1].values[1] == 1.124);
 }
 
+TEST_CASE("an apostrophe or a blank that breaks no line stands between thousands alone") {
+  for (const std::string mark : {"'", "\u2019", "\u202F", "\u00A0", "\x92", "\xA0"}) {
+    const RawTable table =
+        read_text("t;F\n0;987.5\n1;1" + mark + "124.25\n2;-12" + mark + "345" + mark + "678\n");
+    CHECK(table.columns[1].values == std::vector<double>{987.5, 1124.25, -12345678});
+    CHECK(table.notes.front().ends_with("between thousands"));
+  }
+  CHECK(read_text("t;F\n0;1'234,5\n1;2,5\n").columns[1].values[0] == 1234.5);
+  CHECK(std::isnan(read_text("t;F\n0;1\n1;12'34.5\n").columns[1].values[1]));
+}
+
+TEST_CASE("columns of fixed width that touch are refused, and dates are none") {
+  for (const std::string line : {"0.06100.66  636.7", "0.06 100.66-636.70", "0.06-100.66 -636.7"})
+    CHECK_THROWS_WITH_AS(
+        read_text("t x F\n0.00  0.00 1500.0\n0.01 21.46 1490.0\n" + line + "\n0.07 106.4 353.5\n"),
+        doctest::Contains("run.csv:4: '"), Error);
+  CHECK(read_text("t x F d\n0.00 0.00 1500.0 29.11.2026\n0.01 1.00 1500.0 29.11.2026\n").rows() ==
+        2);
+}
+
 TEST_CASE("numbers in groups of which the first lines do not tell are refused") {
   std::string text = "t;F\n";
   for (int k = 0; k < 400; ++k) text += std::to_string(k) + ";1.124\n";
@@ -295,6 +316,23 @@ TEST_CASE("0 bytes") {
   const auto path = folder.write("empty.csv", "");
   CHECK(message_of([&] { read_tables(path); }).find("empty.csv: is empty (0 bytes)") !=
         std::string::npos);
+}
+
+TEST_CASE("UTF-16 without a byte order mark is known by its zeros") {
+  const TemporaryFolder folder;
+  for (const bool little : {true, false}) {
+    std::string bytes;
+    for (const char c : std::string("t (s);F (N);T (\xB0") + "C)\n0;1;20\n0.1;2;20\n0.2;3;20\n")
+      bytes += little ? std::string{c, '\0'} : std::string{'\0', c};
+    const RawTable table = read_tables(folder.write("wide.csv", bytes)).front();
+    CHECK(table.columns[1].values == std::vector<double>{1, 2, 3});
+  }
+
+  // Other bytes with zeros among them are no text.
+  const std::string words("\x01\0\x02\0\x03\0\x04\0\x05\0\x06\0\x07\0\x08\0\x09\0", 18);
+  CHECK(message_of([&] {
+          read_tables(folder.write("words.dat", words));
+        }).find("is not a recording") != std::string::npos);
 }
 
 // The sanitizers judge this test; any Error is a right answer.

@@ -256,6 +256,16 @@ TEST_CASE("no point of a measured road is lost where its steps are uneven") {
   write_file(folder.path() / "two.csv", "s_A,z_A,s_B,z_B\n0,0,0,0\n1,0,0.2,0.01\n2,0,2,0\n");
   CHECK_CLOSE(load_road(folder.path() / "two.csv").spacing, 0.05, 1e-9, 0);
 
+  // A track that ends early, goes on or begins elsewhere would be cut, extended or shifted.
+  for (const char* other :
+       {"0,0\n1,0,0.5,0\n2,0,1,0\n3,0,1.5,0\n4,0,2,0\n",
+        "0,0\n1,0,5,0\n2,0,10,0\n3,0,15,0\n4,0,20,0\n", "9,0\n1,0,10,0\n2,0,11,0\n"}) {
+    write_file(folder.path() / "two.csv", std::string("s_A,z_A,s_B,z_B\n0,0,") + other);
+    const std::string message = message_of([&] { load_road(folder.path() / "two.csv"); });
+    CAPTURE(message);
+    CHECK(message.find("its first track is from 0 to") != std::string::npos);
+  }
+
   // Steps that differ beyond measure are refused, and so is a time in a distance's place.
   write_file(folder.path() / "fine.csv", "s [m],z [mm]\n0,0\n1e-6,10\n100,12\n");
   CHECK(message_of([&] {

@@ -50,6 +50,18 @@ bool same_bits(const Sweep& a, const Sweep& b) {
 
 }  // namespace
 
+TEST_CASE("sweep: a measured road that ends before the rides do is said") {
+  const TemporaryFolder folder;
+  SweepRequest request = example(1);
+  request.inputs.pop_back();  // the speed
+  request.road = "measured,speed=10,file=" +
+                 folder.write("road.csv", "s [m],z [mm]\n0,0\n1,5\n2,3\n4,0\n").string();
+  const std::string note = "the road ends after 0.4 s of 1 s";
+  CHECK(run(request, folder.path() / "a.sqlite").notes.back().find(note) == 0);
+  request.duration = 0.4;
+  CHECK(run(request, folder.path() / "b.sqlite").notes.back().find(note) == std::string::npos);
+}
+
 TEST_CASE("a sweep tells what drives its dampers, where that is one thing") {
   const auto drive = [](const std::string& dampers, const std::string& other) {
     const TemporaryFolder folder;

@@ -21,6 +21,7 @@ namespace {
 inline double inverse_least(const InverseModel* m) { return m->limits().current_min; }
 inline double inverse_most(const InverseModel* m) { return m->limits().current_max; }
 inline double inverse_lead(const InverseModel* m) { return m->lead(); }
+inline int inverse_has_feedback(const InverseModel* m) { return m->has_feedback() ? 1 : 0; }
 inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
   return InverseText::wanted(m, *input, state);
 }
@@ -29,7 +30,8 @@ inline double inverse_wanted(const InverseModel* m, const InverseInput* input, d
 
 }  // namespace
 
-InverseModel::InverseModel(const InverseLimits& limits) : limits_(limits) {
+InverseModel::InverseModel(const InverseLimits& limits, bool has_feedback)
+    : limits_(limits), has_feedback_(has_feedback) {
   const auto& [low, high, sample_time, lag_rate] = limits;
   if (!(std::isfinite(low) && std::isfinite(high) && low < high))
     throw Error(

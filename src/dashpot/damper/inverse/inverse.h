@@ -33,7 +33,7 @@ struct InverseLimits {
 class InverseModel {
  public:
   /// Throws Error when the limits are no range or the sample time is not above 0.
-  explicit InverseModel(const InverseLimits& limits);
+  explicit InverseModel(const InverseLimits& limits, bool has_feedback = false);
   virtual ~InverseModel() = default;
 
   virtual std::string name() const = 0;  ///< as the registry of schemes knows it: "numeric"
@@ -42,22 +42,27 @@ class InverseModel {
   virtual void rest(const DamperInput&, std::span<double>) const noexcept {}
 
   /// Current to command now, A, always within the limits. Where the input is not finite, it is the
-  /// present current. Allocates nothing and throws nothing.
+  /// present current; the measured force counts only where has_feedback(). Allocates nothing and
+  /// throws nothing.
   double command(const InverseInput& input, std::span<double> state) const noexcept;
 
   const InverseLimits& limits() const { return limits_; }
   /// How far beyond the wanted change the command goes; 1 for a coil without lag.
   double lead() const { return lead_; }
+  /// Whether it looks at the measured force.
+  bool has_feedback() const { return has_feedback_; }
 
  protected:
   friend struct InverseText;
-  /// Current that should flow; may leave the limits or be NaN. The input is finite.
+  /// Current that should flow; may leave the limits or be NaN. The input is finite, but for a
+  /// measured force without has_feedback().
   virtual double wanted_current(const InverseInput& input,
                                 std::span<double> state) const noexcept = 0;
 
  private:
   InverseLimits limits_;
   double lead_;
+  bool has_feedback_;
 };
 
 }  // namespace dashpot

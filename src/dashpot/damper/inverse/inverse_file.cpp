@@ -91,6 +91,15 @@ InverseFile load_inverse(const std::filesystem::path& path) {
   return parse_inverse(read_file(path), path.string());
 }
 
+void require_drive(const InverseFile& file, DriveUnit taken, const std::string& where) {
+  const auto words = [](DriveUnit unit) {
+    return unit == DriveUnit::None ? "a number without a unit" : to_string(unit);
+  };
+  if (file.drive_unit != taken)
+    throw Error(where, "gives " + words(file.drive_unit) + ", but the damper takes " + words(taken),
+                "an inverse that 'dashpot invert' made for this damper");
+}
+
 void save_inverse(const InverseFile& file, const std::filesystem::path& path) {
   write_file(path, format_inverse(file));
 }

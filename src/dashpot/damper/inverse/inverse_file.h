@@ -21,6 +21,8 @@ struct InverseFile {
 
 /// Throws Error with file and key on anything unknown, missing or out of bounds.
 InverseFile load_inverse(const std::filesystem::path& path);
+/// Throws Error(where, ...) where the inverse gives another drive than the damper takes.
+void require_drive(const InverseFile& file, DriveUnit taken, const std::string& where);
 void save_inverse(const InverseFile& file, const std::filesystem::path& path);
 InverseFile parse_inverse(std::string_view text, const std::string& source);
 std::string format_inverse(const InverseFile& file);

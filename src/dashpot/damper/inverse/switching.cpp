@@ -22,7 +22,7 @@ constexpr std::array kNames{"clipped_optimal", "modified_clipped_optimal", "heav
 }  // namespace
 
 SwitchingInverse::SwitchingInverse(Rule rule, const InverseLimits& limits, double force_max)
-    : InverseModel(limits), rule_(rule), force_max_(force_max) {
+    : InverseModel(limits, rule != Rule::Heaviside), rule_(rule), force_max_(force_max) {
   if (!(force_max > 0 && std::isfinite(force_max)))
     throw Error(name(), "the largest force of the damper must be a number above 0");
 }

@@ -128,8 +128,7 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
                                           c_number(damper.driver.current_max) + ", &state[" +
                                           std::to_string(at.loop) + "]);\n"
                                     : "")},
-         {"measured",
-          CText::own(c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0")},
+         {"measured", CText::own(damper.inverse->has_feedback() ? "s->force / ratio" : "0")},
          {"inverse", CText::own(std::to_string(at.inverse))}});
   }
 

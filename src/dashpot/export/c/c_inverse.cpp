@@ -132,6 +132,8 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
 
   // The facts that the header states.
+  const std::string measured =
+      inverse.model.has_feedback() ? "this scheme needs it" : "this scheme does not look at it";
   const std::string about =
       filled(kInverseAbout, {{"unit", CText::own(unit)},
                              {"low", CText::own(format_number(limits.current_min))},
@@ -144,6 +146,7 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
       {"size", CText::own(std::to_string(size))},
       {"deviations", CText::own(std::string(c_deviations()))},
       {"unused", CText::own(inverse.model.state_size() == 0 ? ": one that is not used" : "")},
+      {"measured", CText::own(measured)},
       {"sample_time", CText::own(c_number(limits.sample_time))}};
 
   // The texts, the interface port by port, and the run that checks them.
@@ -160,7 +163,7 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
                  {"displacement", "m", "of the damper, extension positive", "displacement"},
                  {"velocity", "m/s", "of the damper, extension positive", "velocity"},
                  {"current", unit, "in the coil now", "current"},
-                 {"measured", "N", "force now; only schemes with feedback look at it", "measured"}},
+                 {"measured", "N", "force now: " + measured, "measured"}},
       .commands = {{"command", unit, "to the coil", "commands[0]"}},
       .state_size = size,
       .sample_time = limits.sample_time,

@@ -14,7 +14,6 @@ namespace dashpot {
 struct CInverse {
   std::string code;
   std::size_t state_size = 0;
-  bool needs_force = false;  ///< it looks at the measured force
 };
 /// Throws Error for one of which no C code is known.
 CInverse c_inverse(const InverseModel& inverse);

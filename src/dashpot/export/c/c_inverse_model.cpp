@@ -22,8 +22,14 @@ std::string constant(const std::string& name, double value) {
 
 std::string limits_of(const InverseModel& inverse) {
   const InverseLimits& limits = inverse.limits();
-  return "#include \"inverse_limits.h\"\nstatic const InverseModel kInverse = " +
-         c_numbers(std::vector{limits.current_min, limits.current_max, inverse.lead()}) + ";\n\n";
+  return filled(R"(#include "inverse_limits.h"
+static const InverseModel kInverse = {@least@, @most@, @lead@, @has_feedback@};
+
+)",
+                {{"least", CText::own(c_number(limits.current_min))},
+                 {"most", CText::own(c_number(limits.current_max))},
+                 {"lead", CText::own(c_number(inverse.lead()))},
+                 {"has_feedback", CText::own(inverse.has_feedback() ? "1" : "0")}});
 }
 
 CInverse network_code(const HistoryNetwork& model) {
@@ -55,7 +61,7 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 )",
                  {{"name", CText::own(model.name())},
                   {"force_max", CText::own(c_number(model.force_max()))}}),
-          0, has_c(c_text("inverse_" + model.name() + ".h"), "missing_force")};
+          0};
 }
 
 /// The model that runs beside the damper, and its observer.

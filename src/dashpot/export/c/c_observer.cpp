@@ -170,7 +170,7 @@ std::string listed(const std::vector<std::string>& names, const std::vector<std:
 }  // namespace
 
 CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& names,
-                        const ExportOptions& options) {
+                        const std::string& origin, const ExportOptions& options) {
   const ObserverTables& t = observer.tables();
   const DamperModel& damper = *observer.dampers().front();
   const auto* law = model_as<LawModel>(damper);
@@ -185,7 +185,8 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
       "From what is measured at each sample: the damper's force and motion and the plant's state, "
       "as the past allows. It begins in a plant that stands. Everything is in SI. An extended "
       "Kalman filter of " +
-      std::to_string(all) + " numbers, " + std::to_string(t.steps) + " steps per sample.";
+      std::to_string(all) + " numbers, " + std::to_string(t.steps) + " steps per sample." +
+      (origin.empty() ? "" : ' ' + origin);
   std::vector<std::string> output_names, output_units;
   for (const CPort& port : outputs.ports) {
     output_names.push_back(port.name);

@@ -184,6 +184,10 @@ std::string known_text(const Domain& d, DriveUnit drive_unit) {
          span(d.current_min, d.current_max, unit_of(drive_unit)) + "; beyond, it extrapolates.";
 }
 
+std::string damper_origin(const ExportedModel& damper) {
+  return "Of its damper: " + damper.origin + ". " + known_text(damper.domain, damper.drive_unit);
+}
+
 Facts common_facts(const ExportedModel& model, const ExportOptions& options,
                    const CSource& source) {
   const Domain& d = model.domain;

@@ -41,6 +41,9 @@ Facts common_facts(const ExportedModel& model, const ExportOptions& options, con
 
 /// "Known for displacements -0.02 ... 0.02 m, velocities ...; beyond, it extrapolates."
 std::string known_text(const Domain& domain, DriveUnit drive_unit);
+/// The same of the damper behind an inverse or an observer, with where it comes from and what is
+/// known against it: "Of its damper: ... Known for ...".
+std::string damper_origin(const ExportedModel& damper);
 
 /// The title of a model in the registry; the name of one that is not there.
 std::string title_of(const DamperModel& model);

@@ -445,15 +445,34 @@ void refuse_moved_columns(const RawTable& table, const CsvDialect& dialect) {
               "separate the columns by semicolons or tabs, or quote numbers like \"1,093.60\"");
 }
 
-bool is_utf16(std::string_view head) {
-  return head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF");
+/// Whether a cell is two numbers without a blank between, as where columns of fixed width touch:
+/// "0.06100.66", "12.5-243.4". A date, 29.11.2026, is none.
+bool is_two_numbers(std::string_view cell) {
+  const std::size_t first = cell.find('.'), last = cell.rfind('.');
+  if (first == last || cell.find_first_not_of("+-.0123456789") != std::string_view::npos)
+    return false;
+  constexpr std::size_t kLongestMonth = 2;
+  const std::string_view between = cell.substr(first + 1, last - first - 1);
+  return between.find('.') == std::string_view::npos && between.size() > kLongestMonth;
+}
+
+/// Throws Error where blanks separate the columns and two of them touch.
+void refuse_touching(std::string_view line, const CsvDialect& dialect, const std::string& where) {
+  if (dialect.separator != ' ' || is_comment(line)) return;
+  std::vector<std::string_view> cells;
+  split_cells(line, dialect.separator, cells);
+  for (const std::string_view cell : cells)
+    if (is_two_numbers(cell))
+      throw Error(where, "'" + std::string(cell) + "' is two numbers: its columns touch",
+                  "columns that blanks, tabs or semicolons separate in every line");
 }
 
 }  // namespace
 
 bool is_csv(const fs::path&, std::string_view extension, std::string_view head) {
   constexpr std::string_view kExtensions[] = {".csv", ".txt", ".tsv", ".dat", ".asc", ".log", ""};
-  const bool text = head.find('\0') == std::string_view::npos || is_utf16(head);
+  const bool text =
+      head.find('\0') == std::string_view::npos || encoding_of(head) != TextEncoding::Bytes;
   return text && std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
                      std::end(kExtensions);
 }
@@ -480,6 +499,8 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
     numbers.push_back(source.line());
   }
   const CsvDialect dialect = sniff_dialect(head, table.place(), separator);
+  for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
+    refuse_touching(head[k], dialect, table.at_line(numbers[k]));
 
   // Then one line at a time: those already read, and the rest of the file.
   add_empty_columns(table, dialect);
@@ -498,6 +519,9 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
   if (dialect.counts_rows)
     table.notes.push_back(
         "there is one name fewer than columns: the first, which counts the rows, has none");
+  if (!dialect.thousands_mark.empty())
+    table.notes.push_back("numbers are read with '" + dialect.thousands_mark +
+                          "' between thousands");
   if (dialect.thousands)
     table.notes.push_back(std::string("numbers are read with '") + dialect.thousands +
                           "' between thousands and '" + dialect.decimal + "' as decimal sign");

@@ -50,6 +50,15 @@ std::optional<std::string> without_thousands(std::string_view cell, char decimal
   return plain + std::string(cell.substr(end));
 }
 
+/// The first mark in the cell that stands between thousands and nowhere else in a number: an
+/// apostrophe, straight or not, or a blank at which no line breaks, in UTF-8 or as Windows writes
+/// them. Empty where there is none.
+std::string_view thousands_mark(std::string_view cell) {
+  for (const std::string_view mark : {"'", "\u2019", "\u202F", "\u00A0", "\x92", "\xA0"})
+    if (cell.find(mark) != std::string_view::npos) return mark;
+  return {};
+}
+
 char other_sign(char decimal) { return decimal == '.' ? ',' : '.'; }
 
 /// At least half of the cells that hold something are numbers: dates and events may stand beside
@@ -363,6 +372,13 @@ bool are_beside(std::span<const std::string_view> beyond, const CsvDialect& dial
 
 std::optional<double> number_of_cell(std::string_view cell, char decimal, char thousands) {
   if (const auto plain = parse_number(cell, decimal)) return plain;
+  if (const std::string_view mark = thousands_mark(cell); !mark.empty()) {
+    std::string marked(trim(cell));
+    for (std::size_t at = 0; (at = marked.find(mark, at)) != std::string::npos; ++at)
+      marked.replace(at, mark.size(), "'");
+    const auto joined = without_thousands(marked, decimal, '\'');
+    return joined ? parse_number(*joined, decimal) : std::nullopt;
+  }
   const bool both = cell.find(decimal) != std::string_view::npos;
   if (!both && thousands == 0) return std::nullopt;
   const auto joined = without_thousands(trim(cell), decimal, other_sign(decimal));
@@ -441,10 +457,16 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
   Cells cells;
   for (std::size_t k = best.dialect.first_data_line; k < lines.size(); ++k) {
     split_cells(lines[k], best.dialect.separator, cells);
-    for (const std::string_view cell : cells)
-      if (!parse_number(cell, best.dialect.decimal) &&
-          number_of_cell(cell, best.dialect.decimal, 0))
-        best.dialect.thousands = other_sign(best.dialect.decimal), best.dialect.is_open = false;
+    for (const std::string_view cell : cells) {
+      if (parse_number(cell, best.dialect.decimal) ||
+          !number_of_cell(cell, best.dialect.decimal, 0))
+        continue;
+      best.dialect.is_open = false;
+      if (const std::string_view mark = thousands_mark(cell); !mark.empty())
+        best.dialect.thousands_mark = text_of_cell(mark);
+      else
+        best.dialect.thousands = other_sign(best.dialect.decimal);
+    }
   }
   read_header(lines, best.columns, best.dialect);
   return best.dialect;

@@ -12,6 +12,7 @@ struct CsvDialect {
   char separator = ',';  ///< ' ' stands for any run of blanks
   char decimal = '.';
   char thousands = 0;               ///< the other of '.' and ',' where numbers are grouped by it
+  std::string thousands_mark;       ///< one that no decimal sign can be, as in 1'093.60; or empty
   std::size_t first_data_line = 0;  ///< index into the sample of lines
   std::vector<std::string> names;   ///< one per column; all "" when no line names them
   std::vector<std::string> units;   ///< from a row of units; "" where there is none
@@ -42,8 +43,8 @@ bool leaves_quote_open(std::string_view line);
 /// name.
 std::size_t count_channel_names(std::span<const std::string_view> cells);
 
-/// The number in a cell. "1.093,60" is one by itself, since it holds both signs; "1.093" is 1093
-/// only where `thousands` says that such groups are used.
+/// The number in a cell. "1.093,60" is one by itself, since it holds both signs, and so is
+/// "1'093.60"; "1.093" is 1093 only where `thousands` says that such groups are used.
 std::optional<double> number_of_cell(std::string_view cell, char decimal, char thousands);
 
 /// Whether the cells of a row beyond the table's columns are notes beside it: texts, or whatever an

@@ -12,16 +12,39 @@ namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 16, kLongestLine = std::size_t{1} << 20;
 constexpr std::size_t kLongestCharacter = 4;  // bytes of UTF-8
+constexpr std::string_view kLittleMark = "\xFF\xFE", kBigMark = "\xFE\xFF";
+
+/// Whether nearly all pairs of bytes are a letter and a 0, the letter at this place of the pair.
+bool pairs_with_zeros(std::string_view head, std::size_t letter) {
+  constexpr std::size_t kFewest = 8;
+  std::size_t pairs = 0, letters = 0;
+  for (std::size_t k = 0; k + 1 < head.size(); k += 2, ++pairs) {
+    const auto first = static_cast<unsigned char>(head[k + letter]);
+    const bool is_letter = first >= ' ' || first == '\t' || first == '\r' || first == '\n';
+    if (first == 0) return false;
+    letters += is_letter && head[k + 1 - letter] == '\0';
+  }
+  return pairs >= kFewest && 8 * letters >= 7 * pairs;
+}
 
 }  // namespace
 
+TextEncoding encoding_of(std::string_view head) {
+  constexpr std::size_t kLooked = 4096;
+  head = head.substr(0, kLooked);
+  if (head.starts_with(kLittleMark) || pairs_with_zeros(head, 0)) return TextEncoding::Utf16Little;
+  if (head.starts_with(kBigMark) || pairs_with_zeros(head, 1)) return TextEncoding::Utf16Big;
+  return TextEncoding::Bytes;
+}
+
 LineSource::LineSource(const fs::path& path) : path_(path.string()), file_(path), buffer_(kBlock) {
   fill();
-  // UTF-16 tells itself by its byte order mark: what was read is decoded, and all that follows.
-  const std::string_view mark(buffer_.data(), std::min<std::size_t>(end_, 2));
-  if (mark == "\xFF\xFE" || mark == "\xFE\xFF") {
-    encoding_ = mark[0] == '\xFF' ? Encoding::Utf16Little : Encoding::Utf16Big;
-    undecoded_.assign(buffer_.data() + 2, end_ - 2);
+  // In UTF-16 what was read is decoded, and all that follows.
+  const std::string_view first(buffer_.data(), end_);
+  encoding_ = encoding_of(first);
+  if (encoding_ != TextEncoding::Bytes) {
+    const bool is_marked = first.starts_with(kLittleMark) || first.starts_with(kBigMark);
+    undecoded_ = first.substr(is_marked ? 2 : 0);
     end_ = 0;
     fill();
   }
@@ -73,7 +96,7 @@ bool LineSource::fill() {
                   "give a text file with one sample per line");
     buffer_.resize(2 * buffer_.size());
   }
-  if (encoding_ != Encoding::Bytes) return fill_from_utf16();
+  if (encoding_ != TextEncoding::Bytes) return fill_from_utf16();
   const std::size_t n = file_.read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += n;
   at_end_ = n == 0;
@@ -86,7 +109,7 @@ bool LineSource::fill_from_utf16() {
   const auto unit_at = [&](std::size_t k) {
     const auto first = static_cast<unsigned char>(undecoded_[k]),
                second = static_cast<unsigned char>(undecoded_[k + 1]);
-    return encoding_ == Encoding::Utf16Little ? first | second << 8 : first << 8 | second;
+    return encoding_ == TextEncoding::Utf16Little ? first | second << 8 : first << 8 | second;
   };
 
   // A surrogate needs two units, so fewer than four bytes may have to wait for more.

@@ -21,8 +21,14 @@ class Lines {
   virtual double expected_lines() const = 0;  ///< in all, guessed from what has been read
 };
 
+enum class TextEncoding { Bytes, Utf16Little, Utf16Big };
+
+/// UTF-16 where these first bytes of a file begin with its byte order mark, or where nearly every
+/// second one is 0 and those between are letters, as in what programs write that leave it out.
+TextEncoding encoding_of(std::string_view head);
+
 /// The lines of a text file (plain or gzip), read block by block: memory does not grow with the
-/// file. UTF-16 with a byte order mark is given as UTF-8. Lines end with LF, CRLF or both mixed,
+/// file. UTF-16 is given as UTF-8. Lines end with LF, CRLF or both mixed,
 /// with CR in a file without LF; one too long for a table of numbers is an Error.
 class LineSource final : public Lines {
  public:
@@ -33,8 +39,6 @@ class LineSource final : public Lines {
   double expected_lines() const override;
 
  private:
-  enum class Encoding { Bytes, Utf16Little, Utf16Big };
-
   bool fill();
   bool fill_from_utf16();
 
@@ -45,7 +49,7 @@ class LineSource final : public Lines {
   std::size_t line_ = 0, consumed_ = 0;
   char line_end_ = '\n';
   bool at_end_ = false;
-  Encoding encoding_ = Encoding::Bytes;
+  TextEncoding encoding_ = TextEncoding::Bytes;
   std::string undecoded_;  ///< bytes of UTF-16 that have been read and not been decoded
 };
 

@@ -135,6 +135,11 @@ ControllerPointer make_controller(const std::string& text, const ControlContext&
   const std::vector<std::string> parts = split(text, ',');
   if (trim(parts.front()).starts_with(kSelector)) return make_selector(parts, context, where);
   const ControlLaw& law = find_control_law(trim(parts.front()), where);
+  for (std::size_t k = 1; k < parts.size(); ++k)
+    if (std::ranges::find(kControlLaws, trim(parts[k]), &ControlLaw::name) !=
+        std::ranges::end(kControlLaws))
+      throw Error(where, "'" + parts[k] + "' is another controller, and a comma begins a setting",
+                  "one controller; where several are taken, ';' between them");
   return law.make(parse_values(law.parameters, std::span(parts).subspan(1), law.name, where),
                   context);
 }

@@ -126,6 +126,24 @@ double spacing_of(const std::vector<double>& way, const std::string& file) {
   return length / std::ceil(length / (0.25 * least));
 }
 
+/// Tracks lie side by side: a second one that begins or ends elsewhere than the first, by more than
+/// a step, would be shifted or cut. Throws Error with where both lie.
+void require_beside(const std::vector<double>& first, const std::vector<double>& other,
+                    const std::string& file) {
+  const auto mean_step = [](const std::vector<double>& way) {
+    return (way.back() - way.front()) / static_cast<double>(way.size() - 1);
+  };
+  const double step = std::max(mean_step(first), mean_step(other));
+  if (std::abs(other.front() - first.front()) <= step &&
+      std::abs(other.back() - first.back()) <= step)
+    return;
+  const auto range = [](const std::vector<double>& way) {
+    return format_number(way.front()) + " to " + format_number(way.back()) + " m";
+  };
+  throw Error(file, "its first track is from " + range(first) + ", another from " + range(other),
+              "tracks that begin and end at the same distances");
+}
+
 /// Heights at equal steps of the way, straight between the samples, from 0.
 std::vector<double> resampled(const std::vector<double>& way, const std::vector<double>& height,
                               double spacing, std::size_t count) {
@@ -150,13 +168,14 @@ RoadProfile load_road(const std::filesystem::path& path, std::string_view distan
     throw Error(file, "has " + std::to_string(table.columns.size()) + " columns",
                 "distance and height, in pairs: one per track");
 
-  // The least spacing of all tracks serves each; the road is as long as its first track.
+  // The least spacing of all tracks serves each; the road is as long as its first.
   RoadProfile road{"measured road " + path.filename().string(), 0, {}};
   std::vector<std::vector<double>> ways;
   for (std::size_t k = 0; k < table.columns.size(); k += 2) {
     require_distance(table.columns[k], distance_unit, file);
     ways.push_back(in_metres(table.columns[k], distance_unit, file));
     require_rising(ways.back(), file, "the distance");
+    require_beside(ways.front(), ways.back(), file);
     const double spacing = spacing_of(ways.back(), file);
     road.spacing = k == 0 ? spacing : std::min(road.spacing, spacing);
   }

@@ -61,8 +61,9 @@ RoadProfile harmonic_road(const RoadOptions& options);
 /// is that of its points.
 RoadProfile filtered_road(const RoadOptions& options);
 
-/// Measured profile: a file whose columns stand in pairs, distance and height, a pair per track;
-/// units from the columns' names, else stated. Throws Error with what is missing.
+/// Measured profile: a file whose columns stand in pairs, distance and height, a pair per track,
+/// all of one stretch of the way; units from the columns' names, else stated. Throws Error with
+/// what is missing.
 RoadProfile load_road(const std::filesystem::path& path, std::string_view distance_unit = {},
                       std::string_view height_unit = {});
 

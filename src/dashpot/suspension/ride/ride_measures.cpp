@@ -178,6 +178,13 @@ double usual_discard(const GroundMotion& ground, double duration) {
   return ground.is_steady() && duration >= 15 ? 5 : 0;
 }
 
+std::string road_end_note(const GroundMotion& ground, double duration) {
+  constexpr double kRounding = 1e-9;
+  if (!ground.is_steady() || !(duration > ground.duration() * (1 + kRounding))) return {};
+  return "the road ends after " + format_number(ground.duration()) + " s of " +
+         format_number(duration) + " s: from there on it is level, and the measures count that too";
+}
+
 std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotion& ground,
                                        const Trace& trace, double discard) {
   if (trace.record.size() < 2) return {};

@@ -19,6 +19,10 @@ struct RideMeasure {
 /// run lasts 15 s at least, so that the filters of the weighting have settled; else none.
 double usual_discard(const GroundMotion& ground, double duration);
 
+/// What to say of a ride of that many seconds that lasts longer than its road. Empty where it does
+/// not.
+std::string road_end_note(const GroundMotion& ground, double duration);
+
 /// On tyres: comfort of the first coordinate's motion (ISO 2631-1, Wk), dynamic load and contact of
 /// the worst tyre, travel of the worst strut, force and energy of the dampers, current; after a
 /// step settling, decay and deviation. For a building: displacement, drift and acceleration of each

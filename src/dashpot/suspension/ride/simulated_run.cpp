@@ -48,7 +48,8 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                    .vehicle = vehicle,
                    .trace = simulate(vehicle->on(ground), settings),
                    .measures = {},
-                   .warnings = {}};
+                   .warnings = {},
+                   .notes = {}};
 
   run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
   run.warnings = vehicle->warnings;
@@ -56,6 +57,8 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
   for (std::string& warning :
        domain_warnings(domain_use(*vehicle, run.trace), options.allowed_outside))
     run.warnings.push_back(std::move(warning));
+  if (std::string note = road_end_note(ground, options.duration); !note.empty())
+    run.notes.push_back(std::move(note));
   return run;
 }
 

@@ -16,6 +16,7 @@ struct SimulatedRun {
   std::vector<RideMeasure> measures;
   /// The trace's, and those of dampers that were asked beyond their data.
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< of the ride, whoever rides: its road ends
 };
 
 struct RunOptions {

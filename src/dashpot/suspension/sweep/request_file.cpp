@@ -107,18 +107,11 @@ void read_values(const Value& value, VehicleWords& words) {
 /// Refuses what a controller states for itself and does not use, as the command line does. What
 /// stands above them all is for those that use it.
 void require_effect(const Value& stated, const VehicleWords& words) {
-  if (!words.controller.empty()) {
-    if (const Value* current = stated.find("current"); current && words.current != 0)
-      throw Error(current->where(),
-                  "current is where there is no controller, which chooses its own", "leave it out");
-    return;
+  for (const IdleWord& idle : idle_words(words)) {
+    const std::string key = idle.key == "in_car" || idle.key == "delay" ? "sensors" : idle.key;
+    if (const Value* value = stated.find(key))
+      throw Error(value->where(), key + ' ' + idle.why, idle.right);
   }
-  for (const auto& [key, is_said] : {std::pair{"inverse", !words.inverse.empty()},
-                                     {"force_loop", !words.force_loop.empty()},
-                                     {"sensors", words.sensors.in_car}})
-    if (const Value* value = stated.find(key); value && is_said)
-      throw Error(value->where(), std::string(key) + " serves a controller, and there is none",
-                  "name one as 'controller', or leave it out");
 }
 
 std::vector<SweepController> read_controllers(const Value& value, const VehicleWords& common,

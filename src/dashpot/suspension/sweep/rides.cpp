@@ -7,6 +7,7 @@
 #include "dashpot/error.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/lanes/batch.h"
+#include "dashpot/suspension/ride/ride_measures.h"
 
 namespace dashpot {
 namespace {
@@ -37,7 +38,10 @@ SweepRider::SweepRider(const SweepRequest& request) : request_(request) {
       for (const std::string& text : *texts)
         if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(text);
   }
-  require_ground(*make_road(request, first), examples_.front().set.plant, request);
+  const GroundPointer road = make_road(request, first);
+  require_ground(*road, examples_.front().set.plant, request);
+  if (std::string note = road_end_note(*road, request.duration); !note.empty())
+    notes_.push_back(std::move(note));
 }
 
 std::optional<DriveUnit> SweepRider::drive() const {

@@ -8,7 +8,7 @@ typedef struct damper_input {
   double displacement; /* m, extension positive */
   double velocity;     /* m/s, extension positive */
   double current;      /* in the coil now: see above for its unit */
-  double measured;     /* N, the force now; only schemes with feedback look at it */
+  double measured;     /* N, the force now; @measured@ */
 } damper_input;
 
 /* An inverse at work. */
@@ -22,5 +22,6 @@ void damper_init(damper_model* model);
 /* Long at rest at this displacement and current. */
 void damper_reset(damper_model* model, const damper_input* input);
 /* The current to command now, DAMPER_SAMPLE_TIME after the last call, always within the limits.
- * Where the input is not finite, the present current. */
+ * Where an input at which it looks is not finite, the present current, or the least where that is
+ * no number; from the next finite input on it works as before. */
 double damper_step(damper_model* model, const damper_input* input);
