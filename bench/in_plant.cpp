@@ -5,7 +5,7 @@
 //   bench_in_plant car MODEL...       a virtual quarter car whose damper is of another structure
 //   bench_in_plant minute LAW...      the same over 60 s, three numbers of the plant unknown
 //   bench_in_plant unmeasured TRUTH CLASS SECONDS LAW...   the same on a road that nothing measures
-//   bench_in_plant named TRUTH CLASS SECONDS LAW...   there, what the laws are listed by, in a line
+//   bench_in_plant named TRUTH CLASS SECONDS SEED LAW...   there, what the laws are listed by
 //   bench_in_plant cover REPETITIONS TRUTH CLASS SECONDS LAW, sensors TRUTH CLASS SECONDS LAW,
 //   covered REPETITIONS TRUTH CLASS SECONDS LAW NOISE, building SECONDS LAW...
 //                                     see bench/without_road.cpp

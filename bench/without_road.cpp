@@ -202,14 +202,17 @@ void run_unmeasured(const std::string& truth, const std::string& road_class, dou
   }
 }
 
-/// named TRUTH CLASS SECONDS LAW...: what the laws are listed by, beside how well each truly does.
+/// named TRUTH CLASS SECONDS SEED LAW...: what the laws are listed by, beside how well each truly
+/// does.
 void run_named(const std::string& truth, const std::string& road_class, double seconds,
-               const std::vector<std::string>& laws) {
+               std::uint64_t seed, const std::vector<std::string>& laws) {
   const std::unique_ptr<LawModel> damper = true_damper(truth);
   const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
-  const auto recordings = rides(true_car(setup), *damper, road_class, seconds / 3, 1);
+  const auto recordings = rides(true_car(setup), *damper, road_class, seconds / 3, seed);
   for (const std::string& law : laws) {
-    const InPlantReport report = identify_in_plant(find_law(law), setup, recordings, {});
+    InPlantOptions options;
+    options.asymmetric = true;
+    const InPlantReport report = identify_in_plant(find_law(law), setup, recordings, options);
     if (!report.model) {
       fmt::print("{}, {}: {}\n", truth, law, report.message);
       continue;
@@ -508,8 +511,9 @@ bool run_without_road(const std::vector<std::string>& words) {
     run_unmeasured(words[1], words[2], std::stod(words[3]), {words.begin() + 4, words.end()});
     return true;
   }
-  if (words.size() >= 5 && words[0] == "named") {
-    run_named(words[1], words[2], std::stod(words[3]), {words.begin() + 4, words.end()});
+  if (words.size() >= 6 && words[0] == "named") {
+    run_named(words[1], words[2], std::stod(words[3]), std::stoull(words[4]),
+              {words.begin() + 5, words.end()});
     return true;
   }
   if (words.size() == 6 && words[0] == "cover") {

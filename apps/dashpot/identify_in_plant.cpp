@@ -39,10 +39,14 @@ std::tuple<bool, bool, double> place_of(const InPlantFit& fit) {
           report.road_measured ? worst : report.force_error};
 }
 
-/// The models asked for; unasked those that are usual in such a plant.
+bool names_none(const std::vector<std::string>& models) {
+  return models == std::vector<std::string>{"usual"};
+}
+
+/// The models asked for; unasked those that are usual in a plant.
 std::vector<std::string> models_for(const InPlantSetup& setup,
                                     const std::vector<std::string>& asked) {
-  if (asked == std::vector<std::string>{"usual"}) return usual_in_plant();
+  if (names_none(asked)) return usual_in_plant();
   for (const std::string& model : asked) require_model_for_plant(model, setup, "--models");
   return asked;
 }
@@ -404,14 +408,15 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   prepare_results(settings.results);
 
   // Each model in turn, the best first.
-  InPlantOptions options{.choices = fit.choices,
-                         .network = fit.network,
-                         .asymmetric = fit.asymmetric,
-                         .seed = fit.seed,
-                         .threads = fit.threads,
-                         .grade = asked.grade,
-                         .profiles = asked.profiles,
-                         .monitor = fit.monitor};
+  InPlantOptions options{
+      .choices = fit.choices,
+      .network = fit.network,
+      .asymmetric = fit.asymmetric || (names_none(settings.fit.models) && unmeasured_road(setup)),
+      .seed = fit.seed,
+      .threads = fit.threads,
+      .grade = asked.grade,
+      .profiles = asked.profiles,
+      .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
   std::vector<InPlantFit> fits = identify_in_plant(wanted, setup, recordings, options);
   std::ranges::stable_sort(fits, {}, place_of);

@@ -78,6 +78,30 @@ TEST_CASE("identify --in: what speaks against a result stands in its files too" 
     CHECK(contains(read_file(results + page), doubt));
 }
 
+TEST_CASE("identify --in: where no model is named some laws are tried, listed by their error" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder, results;
+  folder.write("pushed.csv", pushed_mass());
+  const ProgramResult result = stdout_of_dashpot(
+      "identify " + folder.path().string() +
+      " --in oscillator,mass=unknown,stiffness=5N/mm,force=push,displacement=x --starts 1 --json "
+      "--output " +
+      results.path().string());
+  REQUIRE(result.exit_code == 0);
+  const Value report = parse_json(result.output, "stdout");
+  double before = 0;
+  std::vector<std::string> laws;
+  for (const Value& fit : report.find("fits")->items()) {
+    laws.push_back(fit.find("law")->as_string());
+    const Value& sensor = fit.find("sensors")->items()[0];
+    CHECK(sensor.find("error_held_back")->as_number() >= before);
+    before = sensor.find("error_held_back")->as_number();
+  }
+  std::ranges::sort(laws);
+  CHECK(laws == std::vector<std::string>{"bouc_wen", "hysteretic_biviscous", "modified_bouc_wen",
+                                         "tanh_guo", "tanh_kwok"});
+}
+
 TEST_CASE("identify --in: what cannot be used is said before the work" *
           doctest::test_suite("long")) {
   const TemporaryFolder folder;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "dashpot/base/parallel.h"
@@ -126,7 +125,7 @@ struct Trial {
   const InPlantOptions& options;
 };
 
-/// Fits all over so many samples, and puts the best first.
+/// Fits all over so many samples (0: all that there are), and puts the best first.
 void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all) {
   constexpr int kIterations = 25;
   constexpr double kTolerance = 1e-4, kFirstRadius = 10;
@@ -153,9 +152,11 @@ void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all)
 }
 
 /// The best once more from where a parameter of its law does not follow the drive, first held
-/// there: one that takes on another's part at a low drive may have been left so.
+/// there: one that takes on another's part at a low drive may have been left so. Where that leaves
+/// clearly less, of all too once both are fitted to that, it stands first.
 void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>& all) {
-  constexpr double kClearly = 0.99;
+  constexpr double kClearly = 0.9;
+  constexpr std::size_t kAll = 0;
   const Candidate best = all.front();
   const std::size_t first = in.start.plant.size();
   std::vector<Candidate> others;
@@ -168,8 +169,12 @@ void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>&
   fit_over(horizon, in, others);
   for (Candidate& one : others) one.held = {};
   fit_over(horizon, in, others);
-  if (!others.empty() && others.front().cost < kClearly * best.cost)
-    all.insert(all.begin(), std::move(others.front()));
+  if (others.empty() || !(others.front().cost < kClearly * best.cost)) return;
+  std::vector<Candidate> as_before{best}, other{std::move(others.front())};
+  fit_over(kAll, in, as_before);
+  fit_over(kAll, in, other);
+  if (other.front().cost < kClearly * as_before.front().cost)
+    all.insert(all.begin(), std::move(other.front()));
 }
 
 /// The most promising of them: all are fitted over a short time, where errors in the parameters

@@ -307,7 +307,7 @@ struct Point {
 /// that takes on another's part at a low drive may be left there by the scoring.
 MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const LawUnknowns& unknowns,
                                  const std::vector<double>& start, const InPlantOptions& options) {
-  constexpr double kClearly = 1;  // of -log L
+  constexpr double kClearly = 20;  // of -log L
   const auto from = [&](std::vector<double> x) {
     return most_likely(likelihood, std::move(x), options.iterations, options.threads,
                        options.monitor);

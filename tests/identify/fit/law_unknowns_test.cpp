@@ -109,3 +109,22 @@ TEST_CASE("a drive that varies little tells as little as one level, and the fit 
             .warnings()
             .empty());
 }
+
+TEST_CASE("flattened: each parameter that follows the drive, at all drives as at the greatest") {
+  const LawUnknowns unknowns(find_law("bingham"), example_scale(3), DriveUnit::Ampere,
+                             OffsetMode::Record);
+  std::vector<double> u = unknowns.start();
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] += 0.1 * static_cast<double>(k);
+  const LawModel before = unknowns.model(u);
+  const auto flattened = unknowns.flattened(u);
+  REQUIRE(flattened.size() == 2);  // c0 and f_c
+  for (std::size_t k = 0; k < 2; ++k) {
+    const char *flat = k == 0 ? "c0" : "f_c", *other = k == 0 ? "f_c" : "c0";
+    const LawModel model = unknowns.model(flattened[k].unknowns);
+    for (const double current : {0.5, 1.25, 2.0}) {
+      CHECK_CLOSE(value_at(model, flat, current), value_at(before, flat, 2), 1e-12, 0);
+      CHECK_CLOSE(value_at(model, other, current), value_at(before, other, current), 1e-12, 0);
+    }
+    CHECK(unknowns.groups()[k].first == flattened[k].group.first);
+  }
+}
