@@ -365,31 +365,30 @@ std::vector<Option> in_plant_options(InPlantSettings& settings, const std::vecto
   std::vector<std::string> grades;
   for (const SensorGrade& grade : sensor_grades())
     if (grade.sensors[0] > 0) grades.push_back(grade.name);
-  return {
-      {.names = "--in",
-       .target = &settings.plant,
-       .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
-               "a YAML file or words (docs/in-plant.md)",
-       .value = "PLANT",
-       .takes = Takes::File,
-       .default_text = "a bench that measures the damper's force",
-       .idles = idle_in_plant(ride),
-       .details = "; the models of --models (unasked some usual laws) are identified as part of "
-                  "it, with its unknown numbers: laws in free run, others along the best of "
-                  "these laws"},
-      {.names = "--grade",
-       .target = &settings.grade,
-       .help = "with --in: the grade of the sensors that it tries beside those that are there",
-       .value = "NAME",
-       .choices = grades,
-       .noun = "grade",
-       .needs = "--in"},
-      {.names = "--profile",
-       .target = &settings.profiles,
-       .help = "with --in: numbers of plant and damper whose misfit is followed with all "
-               "others fitted anew; those that no sensor tells are so unasked",
-       .value = "LIST",
-       .needs = "--in"}};
+  return {{.names = "--in",
+           .target = &settings.plant,
+           .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
+                   "a YAML file or words (docs/in-plant.md)",
+           .value = "PLANT",
+           .takes = Takes::File,
+           .default_text = "a bench that measures the damper's force",
+           .idles = idle_in_plant(ride),
+           .details = "; the models of --models (unasked some usual laws) are identified as part "
+                      "of it, with its unknown numbers: laws in free run, others along the best "
+                      "of these laws"},
+          {.names = "--grade",
+           .target = &settings.grade,
+           .help = "with --in: the grade of the sensors that it tries beside those that are there",
+           .value = "NAME",
+           .choices = grades,
+           .noun = "grade",
+           .needs = "--in"},
+          {.names = "--profile",
+           .target = &settings.profiles,
+           .help = "with --in: numbers of plant and damper whose misfit is followed with all "
+                   "others fitted anew; those that no sensor tells are so unasked",
+           .value = "LIST",
+           .needs = "--in"}};
 }
 
 int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, Console& console) {
