@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -288,8 +289,9 @@ std::string verdict_of(const InPlantFit& best, const InPlantSetup& setup) {
          " % of the worst sensor's rms is left on the time held back, in free run.";
 }
 
-Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSetup& setup,
-                           const Console& console) {
+/// doubted: those whose warnings are told; JSON has them all.
+Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const InPlantFit> doubted,
+                           const InPlantSetup& setup, const Console& console) {
   const InPlantFit& best = fits.front();
   Document document{.title = "A damper identified in its plant",
                     .subtitle = std::string(setup.model->title),
@@ -304,7 +306,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
   // What speaks against them stands first in the files; the terminal has it as warnings.
   DocumentSection doubts{
       .name = "doubts", .title = "In doubt", .paragraphs = {}, .audience = Audience::Files};
-  for (const InPlantFit& fit : fits)
+  for (const InPlantFit& fit : doubted)
     for (const std::string& warning : fit.report.warnings)
       doubts.remarks.push_back(fit.model + ": " + warning);
   if (!doubts.remarks.empty()) document.sections.push_back(std::move(doubts));
@@ -420,10 +422,11 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   std::vector<InPlantFit> fits = identify_in_plant(wanted, setup, recordings, options);
   std::ranges::stable_sort(fits, {}, place_of);
 
-  // What came out of it.
-  const Document document = in_plant_document(fits, setup, console);
+  // What came out of it; of laws that nobody asked for, what speaks against the best.
+  const auto doubted = std::span(fits).first(names_none(settings.fit.models) ? 1 : fits.size());
+  const Document document = in_plant_document(fits, doubted, setup, console);
   print_document(document, console);
-  for (const InPlantFit& one : fits)
+  for (const InPlantFit& one : doubted)
     for (const std::string& warning : one.report.warnings) console.warn(one.model + ": " + warning);
   const fs::path folder = settings.results.folder, models = folder / "models",
                  plants = folder / "plants";

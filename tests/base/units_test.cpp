@@ -64,6 +64,10 @@ TEST_CASE("what is no unit is refused") {
   CHECK(message_of([] {
           require_unit("furlong", "run.csv, column x");
         }).find("run.csv, column x: unknown unit 'furlong'") == 0);
+  CHECK(message_of([] { parse_quantity("5:1", "Hz", "--frequencies"); }) ==
+        "--frequencies: '5:1' has an unknown unit ':1'; a number in Hz, or one with its unit");
+  CHECK(message_of([] { parse_quantity("one", "1", "share"); }) ==
+        "share: 'one' is not a number; write it as 0.25");
 }
 
 TEST_CASE("a voltage-driven model counts per volt") {

@@ -234,15 +234,21 @@ double parse_quantity(std::string_view text, std::string_view si_unit, const std
   // The longest beginning that is a number is the number.
   std::size_t length = text.size();
   while (length > 0 && !finite(length)) --length;
-  if (length == 0)
-    throw Error(where, "'" + std::string(text) + "' is not a number",
-                "a number in " + std::string(si_unit) + ", or one with its unit");
+  const std::string right = si_unit == "1"
+                                ? "write it as 0.25"
+                                : "a number in " + std::string(si_unit) + ", or one with its unit";
+  if (length == 0) throw Error(where, "'" + std::string(text) + "' is not a number", right);
   const double number = *finite(length);
 
   // The rest, if any, is a unit of the dimension that is asked for.
   const std::string_view suffix = trim(text.substr(length));
   if (suffix.empty()) return number;
-  const Unit unit = require_unit(suffix, where);
+  const std::optional<Unit> read = parse_unit(suffix);
+  if (!read)
+    throw Error(where,
+                "'" + std::string(text) + "' has an unknown unit '" + std::string(suffix) + "'",
+                right);
+  const Unit& unit = *read;
   if (unit.dimension != require_unit(si_unit, where).dimension)
     throw Error(where, "'" + std::string(suffix) + "' is not a unit of it",
                 "it is counted in " + std::string(si_unit));
