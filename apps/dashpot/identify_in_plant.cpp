@@ -44,12 +44,25 @@ bool names_none(const std::vector<std::string>& models) {
   return models == std::vector<std::string>{"usual"};
 }
 
-/// The models asked for; unasked those that are usual in a plant.
+/// The models asked for, each once; "usual" are those that are so in a plant.
 std::vector<std::string> models_for(const InPlantSetup& setup,
                                     const std::vector<std::string>& asked) {
-  if (names_none(asked)) return usual_in_plant();
-  for (const std::string& model : asked) require_model_for_plant(model, setup, "--models");
-  return asked;
+  std::vector<std::string> models;
+  const auto add = [&](const std::string& model) {
+    if (std::ranges::find(models, model) == models.end()) models.push_back(model);
+  };
+  for (const std::string& word : asked) {
+    if (word == "all" || word == "family")
+      throw UsageError("--models", "'" + word + "' are models of a bench",
+                       "with --in, 'usual' or names, as tanh_kwok");
+    if (word == "usual") {
+      std::ranges::for_each(usual_in_plant(), add);
+      continue;
+    }
+    require_model_for_plant(word, setup, "--models");
+    add(word);
+  }
+  return models;
 }
 
 /// What the fit of a measured force follows alone, what it is ridden by among them, each with what

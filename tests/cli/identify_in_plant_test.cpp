@@ -115,6 +115,9 @@ TEST_CASE("identify --in: what cannot be used is said before the work" *
   };
   const std::string plant = "--in oscillator,mass=2,force=push,displacement=x";
   CHECK(contains(output(plant), "leaves 2 samples to fit"));  // unasked, some laws are tried
+  CHECK(contains(output(plant + " --models usual,dahl"), "leaves 2 samples to fit"));
+  CHECK(contains(output(plant + " --models all"),
+                 "--models: 'all' are models of a bench; with --in, 'usual' or names"));
   CHECK(contains(output(plant + " --models family_gated"),
                  "'family_gated' is a model of many dampers, and a plant holds one"));
   CHECK(contains(output(plant + " --models dahl --leave-out current"),

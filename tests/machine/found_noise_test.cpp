@@ -131,3 +131,16 @@ TEST_CASE("an observer's noise: stated, else of the plant's file, else of the mo
   CHECK(stated.sensors[0].zero == 0);
   CHECK(identified_noise_words(stated).empty());
 }
+
+TEST_CASE("noise_alone: sensors of a plant that hardly moves, and no motion however quick") {
+  const InPlantSetup setup = parse_in_plant_setup(kQuietCar, "car.yaml");
+  PlantRecording ride{.name = "ride", .sample_time = 0.002, .samples = 4000};
+  for (const char* name : {"road", "az", "level"}) ride.channels.push_back({.name = name});
+  Random random(7);
+  for (int k = 0; k < 4000; ++k) {
+    ride.channels[0].samples.push_back(0);
+    ride.channels[1].samples.push_back(0.3 * std::sin(1.5 * k) + 0.05 * random.normal());
+    ride.channels[2].samples.push_back(5e-5 * std::sin(0.05 * k) + 5e-4 * random.normal());
+  }
+  CHECK(noise_alone(setup, {ride}) == std::vector<std::string>{"level"});
+}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dashpot/base/text.h"
 #include "dashpot/plant.h"
@@ -31,26 +32,33 @@ double white_by_differences(const std::vector<std::vector<double>>& signals, int
   return *middle / (kMedianOfNormal * std::sqrt(gain));
 }
 
-/// The white part of what is left at a sensor in free run, over the time that was fitted. What the
-/// model lacks is smoother: it goes with more differences, noise does not. 0 where it is no noise.
-double white_left(const InPlantSetup& setup, const InPlantReport& report, std::size_t sensor) {
+/// The deviation of white noise in these signals. Motions are smoother: they go with more
+/// differences, noise does not. 0 where it is not told.
+double white_part(const std::vector<std::vector<double>>& signals) {
   constexpr int kFew = 2, kMany = 4;
   constexpr double kAlike = 0.06;
   constexpr std::size_t kFewest = 200;
-  std::vector<std::vector<double>> left;
   std::size_t samples = 0;
+  for (const std::vector<double>& signal : signals) samples += signal.size();
+  if (samples < kFewest) return 0;
+  const double few = white_by_differences(signals, kFew),
+               many = white_by_differences(signals, kMany);
+  return std::abs(many - few) < kAlike * few ? many : 0;
+}
+
+/// The white part of what is left at a sensor in free run, over the time that was fitted. The rest
+/// is what the model lacks.
+double white_left(const InPlantSetup& setup, const InPlantReport& report, std::size_t sensor) {
+  std::vector<std::vector<double>> left;
   for (const InPlantTrace& trace : report.traces) {
     if (trace.modelled.size() <= sensor) return 0;
     std::vector<double> own;
     const auto first = static_cast<std::size_t>(setup.skip / trace.sample_time);
     for (std::size_t k = first; k < trace.training; ++k)
       own.push_back(trace.measured[sensor][k] - trace.modelled[sensor][k]);
-    samples += own.size();
     left.push_back(std::move(own));
   }
-  if (samples < kFewest) return 0;
-  const double few = white_by_differences(left, kFew), many = white_by_differences(left, kMany);
-  return std::abs(many - few) < kAlike * few ? many : 0;
+  return white_part(left);
 }
 
 /// Among the nuisances of a fit; 0 where they do not tell it.
@@ -112,6 +120,26 @@ std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantRepo
         noise > 0 && input.noise == 0 && !input.road)
       found.push_back({input.channel, unit_of(input.place.kind), noise, 0});
   return found;
+}
+
+std::vector<std::string> noise_alone(const InPlantSetup& setup,
+                                     const std::vector<PlantRecording>& recordings) {
+  constexpr double kHardlyMore = 0.9;
+  std::vector<std::string> channels;
+  for (const PlantSensor& sensor : setup.sensors) {
+    std::vector<std::vector<double>> signals;
+    double square = 0, count = 0;
+    for (const PlantRecording& recording : recordings) {
+      signals.push_back(recording.channel(sensor.channel).samples);
+      const double mean = std::accumulate(signals.back().begin(), signals.back().end(), 0.0) /
+                          static_cast<double>(signals.back().size());
+      for (const double sample : signals.back()) square += (sample - mean) * (sample - mean);
+      count += static_cast<double>(signals.back().size());
+    }
+    if (white_part(signals) > kHardlyMore * std::sqrt(square / count))
+      channels.push_back(sensor.channel);
+  }
+  return channels;
 }
 
 InPlantSetup with_identified_noise(InPlantSetup setup, const ModelFile& file,

@@ -4,6 +4,7 @@
 
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_recording.h"
 #include "dashpot/model_file.h"
 
 namespace dashpot {
@@ -16,6 +17,10 @@ namespace dashpot {
 /// in free run that is white, where there is one, since the rest is the model's error. Without a
 /// deviation where neither tells it. Nothing of a report without a model.
 std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantReport& report);
+
+/// The sensors that show hardly more than white noise in these recordings.
+std::vector<std::string> noise_alone(const InPlantSetup& setup,
+                                     const std::vector<PlantRecording>& recordings);
 
 /// The setup of an observer: what the plant's file says was found, else what the model's file
 /// says, stands where no noise is stated (and no zero), and `from` names the file.

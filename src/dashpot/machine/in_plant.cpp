@@ -12,6 +12,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/beside_noise.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
@@ -442,7 +443,10 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   report.message = solved.message;
   report.seconds = cpu_seconds() - started;
   if (!is_finite()) {
-    report.message = "the plant diverges wherever the fit begins: " + solved.message;
+    report.message = "the plant diverges wherever the fit begins";
+    if (const auto channels = noise_alone(setup, recordings); !channels.empty())
+      report.message += "; " + join(channels, ", ") + (channels.size() == 1 ? " shows" : " show") +
+                        " hardly more than noise: does the plant move enough?";
     return report;
   }
   report.status =
