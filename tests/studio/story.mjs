@@ -18,7 +18,7 @@ const scratch = make_folder(), folder = join(scratch, "project"), bench = join(s
 execFileSync(program, ["bench", "--motions", "15x1,10x2,5x3,2x5", "--levels", "0,0.5,1,1.5,2", "--cycles", "3", "--sample-rate", "500", "--output", bench], {stdio: "ignore"});
 const files = readdirSync(bench).filter((name) => name.endsWith(".csv"));
 assert.equal(files.length, 20);
-const kFour = ["bingham", "tanh_kwok", "bouc_wen", "biviscous"];
+const kFour = ["bingham", "tanh_kwok", "bouc_wen", "modified_bouc_wen"];  // the last takes its time
 const lying = "5_mm_3_Hz_1_V.csv";
 writeFileSync(join(bench, lying), readFileSync(join(bench, lying), "utf8").replace("F_N", "F_kN"));
 const messy = join(scratch, "messy");

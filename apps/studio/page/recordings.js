@@ -103,7 +103,6 @@ function corrections_of(rows, edits, known_level) {
 function Correction({record, known, on_done}) {
   const [edits, set_edits] = useState({}), [error, set_error] = useState(""), [busy, set_busy] = useState(false);
   const {path, relative} = file_of(record, known);
-  useEffect(() => { set_edits({}); set_error(""); }, [record.name]);
   const rows = useMemo(() => {
     const seen = new Set();
     return known.columns.filter((c) => c.file === path && !c.column.startsWith("(") && !seen.has(c.column) && seen.add(c.column));
@@ -179,7 +178,7 @@ export function Recordings({known, version, theme, on_changed}) {
             html`<${ChannelPlot} key=${`loop-${name}`} record=${record.name} version=${version} x=${name} y="force" title="Force over ${name}" x_label=${label} y_label="Force (N)" window=${window} theme=${theme} height=${300} width=${400} />`)}
         </div>
         ${record.notes.length > 0 && html`<details><summary>${record.notes.length} notes on this record</summary>${record.notes.map((n) => html`<p class="note">${n}</p>`)}</details>`}
-        <${Correction} record=${record} known=${known} on_done=${on_changed} />
+        <${Correction} key=${record.name} record=${record} known=${known} on_done=${on_changed} />
         <${Command} words=${["inspect", known.folder]} />`}
     </div>
   </main>`;
