@@ -195,8 +195,8 @@ DriveOptions read_drive_options(const char* text) {
   require_at_least_0(out.output_step, "output_step", "s, 0 or more");
   require_at_least_0(words.current, "current", "A or V, 0 or more");
   require_at_least_0(words.current_max, "current_max", "A or V, 0 (the model's) or more");
-  for (const IdleWord& idle : idle_words(words))
-    throw Error("options, " + idle.key, idle.why, idle.right);
+  if (const std::vector<IdleWord> idle = idle_words(words); !idle.empty())
+    throw Error("options, " + idle.front().key, idle.front().why, idle.front().right);
   return out;
 }
 

@@ -281,10 +281,12 @@ DocumentTable models_by_force_error(const std::vector<InPlantFit>& fits) {
                                   {"CPU s", true},
                                   {"remark"}},
                       .rows = {}};
+
   for (const InPlantFit& fit : fits)
     table.rows.push_back({fit.model, format_number(fit.report.force_error, 3),
                           format_number(worst_of(fit), 3), format_number(fit.report.seconds, 3),
                           remark_of(fit)});
+
   table.note =
       "Force error: rms of what the law leaves of the force, as the sensors tell it. Worst sensor: "
       "error one sample ahead on the time held back, over its rms, which says little of the law.";

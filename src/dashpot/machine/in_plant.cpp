@@ -157,8 +157,10 @@ void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all)
 /// clearly less, of all too once both are fitted to that, it stands first.
 void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>& all) {
   constexpr double kClearly = 0.9;
-  constexpr std::size_t kAll = 0;
+  constexpr std::size_t kAll = 0, kShorter = 3;
   const Candidate best = all.front();
+
+  // One parameter after the other.
   const std::size_t first = in.start.plant.size();
   std::vector<Candidate> others;
   for (const LawUnknowns::Flattened& flat :
@@ -167,10 +169,15 @@ void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>&
     others.back().held = flat.group;
     std::ranges::copy(flat.unknowns, others.back().x.begin() + static_cast<std::ptrdiff_t>(first));
   }
-  fit_over(horizon, in, others);
+  if (others.empty()) return;
+
+  // Held there over a part of the horizon, then free.
+  fit_over(horizon / kShorter, in, others);
   for (Candidate& one : others) one.held = {};
   fit_over(horizon, in, others);
-  if (others.empty() || !(others.front().cost < kClearly * best.cost)) return;
+  if (!(others.front().cost < kClearly * best.cost)) return;
+
+  // Both to all that there is.
   std::vector<Candidate> as_before{best}, other{std::move(others.front())};
   fit_over(kAll, in, as_before);
   fit_over(kAll, in, other);

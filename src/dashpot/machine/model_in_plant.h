@@ -17,8 +17,8 @@ namespace dashpot {
 /// The law along which a model learns where no law is asked for.
 inline constexpr const char* kLawBeforeModels = "tanh_kwok";
 
-/// The laws that are tried where no model is named, with and without a memory: each is the one that
-/// comes nearest to some virtual damper (docs/in-plant.md).
+/// The laws that are tried where no model is named: with and without a memory, with a spring of
+/// their own and without.
 std::vector<std::string> usual_in_plant();
 
 /// A model that was identified in a plant.

@@ -314,6 +314,8 @@ MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const Law
   };
   MostLikely best = from(start);
   if (!best.slopes.finite) return best;
+
+  // Each in turn, beside the best so far.
   const std::vector<double> found = best.x;
   const std::span law = std::span(found).subspan(likelihood.plant_unknowns(), unknowns.size());
   for (const LawUnknowns::Flattened& flat : unknowns.flattened(law)) {
@@ -447,6 +449,7 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   } catch (const Error& error) {
     // A filter with this law diverges; those of other laws may not.
     report.model = nullptr;
+    report.status = FitReport::Status::Failed;
     report.message = error.what();
   }
   report.seconds = cpu_seconds() - started;
