@@ -23,6 +23,12 @@ std::string amount_text(const WatchedQuantity& q, double value, int digits = 3) 
 }
 std::string amount_unit(const WatchedQuantity& q) { return is_share(q) ? "%" : unit_name(q.unit); }
 
+/// The unit of a number of the plant.
+std::string_view unknown_unit(const Watched& watched, const PlantUnknown& unknown) {
+  const PlantModel& model = *watched.plant.setup.model;
+  return model.parameters[row_named(model.parameters, unknown.name, model.name, "plant")].unit;
+}
+
 bool has_several(const Watched& watched) { return watched.plant.dampers.size() > 1; }
 
 /// Days that the charts take.
@@ -52,7 +58,7 @@ std::vector<TextColumn> day_columns(const Watched& watched) {
     columns.push_back({"sum", true, 1, false, "of the chart; an alarm above its threshold"});
   }
   for (const PlantUnknown& unknown : watched.plant.setup.unknown)
-    columns.push_back({unknown.name, true, 3});
+    columns.push_back({unknown.name + ", " + unit_name(unknown_unit(watched, unknown)), true, 3});
   columns.push_back({"remark"});
   return columns;
 }
@@ -66,7 +72,8 @@ std::vector<std::string> day_row(const Watched& watched, std::size_t d) {
     row.push_back(amount_text(q, kNormal95 * day.wear_deviation[q.place], 2));
     row.push_back(!watched.is_judged(d) ? "" : format_number(q.chart.points[d].sum, 3));
   }
-  for (const double value : day.plant) row.push_back(format_number(value, 4));
+  for (std::size_t k = 0; k < day.plant.size(); ++k)
+    row.push_back(quantity(day.plant[k], unknown_unit(watched, watched.plant.setup.unknown[k]), 4));
   row.push_back(watched.remark(d));
   return row;
 }
@@ -288,7 +295,8 @@ std::string csv_titles(const Watched& watched, const PrintUnits& units) {
     text += ',' + q.name + unit + ',' + q.name + "_deviation" + unit + ',' + q.name + "_expected" +
             unit + ',' + q.name + "_scatter" + unit + ',' + q.name + "_score," + q.name + "_sum";
   }
-  for (const PlantUnknown& unknown : watched.plant.setup.unknown) text += ',' + unknown.name;
+  for (const PlantUnknown& unknown : watched.plant.setup.unknown)
+    text += ',' + unknown.name + " [" + units.of(unknown_unit(watched, unknown)).name + "]";
   for (const std::string& name : watched.options.known) text += ',' + name;
   return text + ",remark\n";
 }
@@ -346,7 +354,9 @@ std::string watch_csv(const Watched& watched, const PrintUnits& units) {
     }
 
     // Beside it the plant's numbers, what is known of the day, and what is said of it.
-    for (const double value : day.estimate.plant) add(value);
+    for (std::size_t k = 0; k < day.estimate.plant.size(); ++k)
+      add(units.of(unknown_unit(watched, watched.plant.setup.unknown[k])).factor *
+          day.estimate.plant[k]);
     for (const double value : day.known) add(value);
     text += ',' + csv_field(watched.remark(d)) + '\n';
   }

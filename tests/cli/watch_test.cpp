@@ -57,6 +57,8 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
   CHECK(std::abs(day.find("plant")->find("mass")->as_number() - 103) < 3);
   CHECK(contains(read_file(out + "/report.html"), "watched from day to day"));
   CHECK(contains(read_file(out + "/report.csv"), "day,force,force_deviation"));
+  CHECK(contains(read_file(out + "/report.csv"), ",mass [kg],remark"));
+  CHECK(contains(read_file(out + "/report.md"), "mass, kg"));
 
   // The file for programs has the units that are asked for, as the page has.
   const std::string inches = (folder.path() / "inches").string();
