@@ -45,17 +45,19 @@ std::vector<Option> coil_options(DamperChoice& choice) {
   return {current_max_option(choice.current_max), lag_rate_option(choice.lag_rate)};
 }
 
+void refuse_published(const std::string& model, const std::string& command,
+                      const std::string& right) {
+  const std::vector<std::string> published = parameter_set_names();
+  if (std::ranges::find(published, model) != published.end() && !std::filesystem::exists(model))
+    throw UsageError(command, "'" + model + "' is a published damper, and no file", right);
+}
+
 ModelFile load_damper_file(const DamperChoice& choice, const std::string& command,
                            Console& console) {
   if (choice.model.empty() == choice.parameters.empty())
     throw UsageError(command, "needs one damper", "give a model file, or --parameters NAME");
 
-  // A published damper has a name, and no file.
-  const std::vector<std::string> published = parameter_set_names();
-  if (std::ranges::find(published, choice.model) != published.end() &&
-      !std::filesystem::exists(choice.model))
-    throw UsageError(command, "'" + choice.model + "' is a published damper, and no file",
-                     "--parameters " + choice.model);
+  refuse_published(choice.model, command, "--parameters " + choice.model);
 
   ModelFile file;
   if (!choice.model.empty()) {

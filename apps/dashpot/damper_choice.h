@@ -26,6 +26,11 @@ Option current_max_option(double& current_max);
 Option lag_rate_option(double& lag_rate);
 std::vector<Option> coil_options(DamperChoice& choice);
 
+/// A published damper has a name, and no file: throws UsageError where MODEL is one, with what
+/// would be right.
+void refuse_published(const std::string& model, const std::string& command,
+                      const std::string& right);
+
 /// Warns where the damper feeds energy into some motions. Throws UsageError where not exactly one
 /// was chosen.
 ModelFile load_damper_file(const DamperChoice& choice, const std::string& command,

@@ -44,6 +44,7 @@ ObservedDampers load_dampers(const std::vector<std::string>& files, const std::s
       dampers.push_back(dampers[static_cast<std::size_t>(same)]);
       continue;
     }
+    refuse_published(files[d], command, "a model file that 'dashpot identify --in' wrote");
     ModelFile file = load_damper_file({.model = files[d], .parameters = {}}, command, console);
     require_plant_drive(setup, file, files[d]);
     setup = with_identified_noise(std::move(setup), file, files[d]);

@@ -67,6 +67,8 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
                  "time [s],damper_force [lbf],damper_force_half_band [lbf]"));
 
   // What cannot be used.
+  CHECK(contains(run_dashpot("observe spencer1997 --in " + car + " " + rides).output,
+                 "is a published damper, and no file; a model file that 'dashpot identify --in'"));
   CHECK(contains(run_dashpot(with + " --units furlong").output, "--units: "));
   CHECK(contains(
       run_dashpot("bench --in " +
