@@ -155,6 +155,8 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
   const auto wrong = [&](const std::string& text) { return message_of([&] { read(text); }); };
   CHECK(contains(wrong("time,level\n0,1\n1,2\n2,4\n"), "has no column 'push'"));
   CHECK(contains(wrong("level,push\n0,1\n1,2\n2,4\n"), "has no column of time"));
+  CHECK(contains(wrong("time,level [m],push,level [mm]\n0,1,1,1\n1,2,1,1\n2,4,1,1\n"),
+                 "has two columns 'level' (it has 'time', 'level [m]', 'push', 'level [mm]')"));
   CHECK(contains(wrong("time [ms],level,push\n0,1,1\n2,2,2\n4,2,2\n9,4,3\n11,4,3\n"),
                  "ride.csv:5: its time stamps are not uniform: here they go on by 0.005 s, "
                  "elsewhere by 0.002 s; sample the plant at one rate, or resample the recording; "

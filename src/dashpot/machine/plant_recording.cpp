@@ -157,6 +157,9 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
         std::ranges::find(also, name) == also.end())
       continue;
     require_numbers(table, column);
+    if (std::ranges::find(recording.channels, name, &Channel::name) != recording.channels.end())
+      throw Error(table.file, "has two columns '" + name + "' (it has " + table.column_list() + ")",
+                  "another name for the one that is not meant");
     const std::string where = table.file + ", column '" + column.name + "'";
     Channel channel{.name = name, .unit = "SI", .samples = std::move(column.values), .origin = {}};
     if (unit.empty()) {
