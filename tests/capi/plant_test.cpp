@@ -287,6 +287,13 @@ TEST_CASE("inside a plant: what cannot be is refused with what would be right") 
       message_of(DASHPOT_BAD_INPUT, dashpot_observe(known, rides, kPushedMass, R"({"level": 2})",
                                                     nullptr, &estimates, nullptr)),
       "level: is 2"));
+  std::string tenner = kPushedMass;
+  tenner.replace(tenner.find("mass: unknown"), 13, "mass: 10 kg");
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
+                            dashpot_observe(known, rides, tenner.c_str(),
+                                            R"({"steps": 1000000, "force_error": [[5, 1]]})",
+                                            nullptr, &estimates, nullptr)),
+                 "steps: is 1000000 per sample; 1000 at most"));
   CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_observe(known, rides, kPushedMass, nullptr,
                                                                nullptr, &estimates, nullptr)),
                  "mass"));

@@ -61,12 +61,12 @@ struct ObservedRide {
   PlantRecording recorded;
 };
 
-ObservedRide spencer_ride(const std::string& file, double seconds) {
+ObservedRide spencer_ride(const std::string& file, double seconds, std::uint64_t seed = 3) {
   const InPlantSetup setup = parse_in_plant_setup(file, "car.yaml");
   VirtualCampaignOptions options{.duration = seconds,
                                  .levels = {setup.level},
                                  .road = "iso8608,class=C,speed=20m/s",
-                                 .seed = 3};
+                                 .seed = seed};
   const std::vector<VirtualRide> rides =
       virtual_campaign(setup, load_parameters("spencer1997"), options);
   return {setup,
@@ -156,6 +156,64 @@ TEST_CASE("observe: an accelerometer that shows gravity is told, one whose zero 
   for (double& value : ride.recorded.channels.front().samples) value += 9.81;
   REQUIRE(ride.recorded.channels.front().name == "az_body");
   CHECK(contains(told(), "ride, az_body: its zero came out at "));
+}
+
+TEST_CASE(
+    "observe: a sensor that is dead, stuck, lost or drifts is told, and none of clean rides") {
+  // What is said of the sensors of a ride, one of which is tampered with.
+  const auto told = [](ObservedRide ride, std::size_t channel, const auto& tampered) {
+    std::vector<double>& shown = ride.recorded.channels[channel].samples;
+    for (std::size_t k = 0; k < shown.size(); ++k) shown[k] = tampered(k, shown);
+    const ObserveReport report = observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded},
+                                         {.force = {{28, 0.005}, {5, 0.3}}});
+    std::vector<std::string> faults;
+    for (const std::string& warning : report.warnings)
+      if (contains(warning, "stands at") || contains(warning, "drift")) faults.push_back(warning);
+    return faults;
+  };
+  const auto as_it_is = [](std::size_t k, const std::vector<double>& shown) { return shown[k]; };
+  for (const std::uint64_t seed : {1, 2, 3, 4})
+    CHECK(told(spencer_ride(kObservedCar, 4, seed), 0, as_it_is).empty());
+
+  const ObservedRide ride = spencer_ride(kObservedCar, 4);
+  REQUIRE(ride.recorded.channels[0].name == "az_body");
+  REQUIRE(ride.recorded.channels[2].name == "level");
+
+  // Stuck from 2 s on, lost for a while; a coarse one is neither.
+  const auto stuck = told(ride, 2, [](std::size_t k, const std::vector<double>& shown) {
+    return shown[std::min<std::size_t>(k, 1000)];
+  });
+  REQUIRE(stuck.size() == 1);
+  CHECK(contains(stuck[0], "ride, level: stands at "));
+  CHECK(contains(stuck[0], " m from 2 to 4 s, where the plant moves on"));
+  const auto lost = told(ride, 0, [](std::size_t k, const std::vector<double>& shown) {
+    return k < 1000 || k >= 1100 ? shown[k] : 0;
+  });
+  REQUIRE(lost.size() == 1);
+  CHECK(contains(lost[0], "ride, az_body: stands at 0 m/s^2 from 2 to 2.2 s"));
+  CHECK(told(ride, 2, [](std::size_t k, const std::vector<double>& shown) {
+          return 0.002 * std::round(shown[k] / 0.002);
+        }).empty());
+
+  // Zeros that drift; a gain is none.
+  const auto drifts = told(ride, 0, [](std::size_t k, const std::vector<double>& shown) {
+    return shown[k] + 0.5 * static_cast<double>(k) / static_cast<double>(shown.size());
+  });
+  REQUIRE(drifts.size() == 1);
+  const std::string drift = "ride, az_body: its zero seems to drift, by some ";
+  REQUIRE(drifts[0].starts_with(drift));
+  CHECK_CLOSE(std::stod(drifts[0].substr(drift.size())), 0.5, 0.1, 0);
+  CHECK(told(ride, 0, [](std::size_t k, const std::vector<double>& shown) {
+          return 1.2 * shown[k];
+        }).empty());
+
+  // One that shows nothing at all, in whichever recording.
+  PlantRecording dead = ride.recorded;
+  dead.name = "second";
+  for (double& value : dead.channels[2].samples) value = 0.123;
+  const std::vector<PlantRecording> both = {ride.recorded, dead};
+  CHECK_THROWS_WITH_AS(observe(tanh_of_spencer(), kCarDomain, ride.setup, both, {}),
+                       doctest::Contains("second, level: is constant"), Error);
 }
 
 TEST_CASE("observe: the noise of a measured road is in what a wheel's acceleration is to show") {

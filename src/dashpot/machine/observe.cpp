@@ -12,6 +12,7 @@
 #include "dashpot/error.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/sensor_faults.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/minimise.h"
 #include "dashpot/suspension/dampers/damper_words.h"
@@ -31,6 +32,25 @@ double rms_of(const std::vector<double>& samples) {
   for (const double sample : samples) sum += sample / count;
   for (const double sample : samples) square += (sample - sum) * (sample - sum) / count;
   return std::sqrt(square);
+}
+
+/// Throws Error where so many steps per sample would never end.
+void require_steps(int steps) {
+  constexpr int kMost = 1000;
+  if (steps > kMost)
+    throw Error("steps", "is " + std::to_string(steps) + " per sample",
+                std::to_string(kMost) + " at most; 0: as many as the filter's error asks for");
+}
+
+/// Throws Error where a sensor shows nothing but one number.
+void require_signals(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings) {
+  for (const PlantRecording& recording : recordings)
+    for (const PlantSensor& sensor : setup.sensors) {
+      const auto [low, high] = std::ranges::minmax(recording.channel(sensor.channel).samples);
+      if (low == high)
+        throw Error(recording.name + ", " + sensor.channel, "is constant",
+                    "a sensor that shows the motion; leave it out of the plant where it is dead");
+    }
 }
 
 /// What is uncertain as logarithms of those that were not stated, which are searched for.
@@ -94,7 +114,6 @@ NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecor
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const PlantSensor& sensor = setup.sensors[s];
     const double rms = rms_of(recordings.front().channel(sensor.channel).samples);
-    if (!(rms > 0)) throw Error(sensor.channel, "is constant", "a sensor that shows the motion");
     noise_.sensors.push_back(sensor.noise > 0 ? sensor.noise : kFirstNoise * rms);
     if (sensor.noise == 0)
       seek([s](ObserverNoise& n) { return &n.sensors[s]; }, rms / kWidest, rms);
@@ -267,6 +286,23 @@ std::vector<std::string> far_zeros(const InPlantSetup& setup, const ObserverScal
   return far;
 }
 
+/// Filters of a recording with the uncertainties as they are, and where slow errors of the force
+/// were found, with less and less of these: they may have been found in the place of a drift.
+std::vector<PlantObserver> with_less_slow_errors(
+    const DamperModels& models, const InPlantSetup& setup, const PlantRecording& recording,
+    const ObserverNoise& noise, const ObserverScale& scale, int steps, bool were_found) {
+  std::vector<PlantObserver> tried;
+  for (const double share : {1.0, 0.3, 0.1, 0.03}) {
+    ObserverNoise less = noise;
+    for (ForceError& error : less.force)
+      if (error.memory > kParted) error.deviation *= share;
+    tried.emplace_back(observer_tables(setup, models, less, scale, recording.sample_time, steps),
+                       models);
+    if (!were_found) break;
+  }
+  return tried;
+}
+
 /// The estimates of a run as quantities with bands.
 ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetup& setup,
                                 const PlantRecording& recording, const ObservedSamples& samples,
@@ -411,6 +447,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   const double started = cpu_seconds();
   require_setup(setup);
   require_no_follower(setup, "the observer");
+  require_steps(options.steps);
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
   ObserveReport report{.struts = observer_names(setup).struts};
   assert(dampers.size() == report.struts.size());
@@ -433,6 +470,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   std::vector<ObservedSamples> samples;
   for (const PlantRecording& recording : recordings)
     samples.push_back(observed_samples(setup, recording));
+  require_signals(setup, recordings);
   const NoiseSearch search(setup, recordings, scale, options);
 
   // The filter's step, by the recording that asks for the finest; then what was not stated.
@@ -454,6 +492,17 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
       observers_of(models, setup, recordings, report.noise, scale, report.steps);
   if (!options.causal)
     find_starts(models, setup, recordings, report.noise, scale, report.steps, samples);
+  const auto add_sensor_faults = [&](std::size_t r, const ObservedRun& run) {
+    std::vector<std::string> faults = held_sensors(setup, recordings[r], run);
+    if (faults.empty())
+      faults.push_back(
+          drifting_sensor(setup, recordings[r], samples[r],
+                          with_less_slow_errors(models, setup, recordings[r], report.noise, scale,
+                                                report.steps, options.force.empty()),
+                          scale.offset, recordings.size(), options.threads));
+    std::ranges::copy_if(faults, std::back_inserter(report.warnings),
+                         [](const std::string& fault) { return !fault.empty(); });
+  };
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     options.monitor.check();
     options.monitor.report(
@@ -463,6 +512,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
     if (!std::ranges::all_of(run.estimates, [](double x) { return std::isfinite(x); }))
       throw Error(recordings[r].name, "the filter diverges",
                   "more of its steps, or a damper and a plant that fit the recording");
+    add_sensor_faults(r, run);
     if (!options.causal) smooth(observers[r], run);
     report.recordings.push_back(
         quantities_of(observers[r], setup, recordings[r], samples[r], run, width));
@@ -495,6 +545,7 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
   constexpr double kLate = 0.1;  // of a sample
   require_setup(setup);
   require_no_follower(setup, "the observer");
+  require_steps(options.steps);
   setup.from_rest = true;
   damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
   const DamperModels models(setup.dampers(), damper);
