@@ -67,6 +67,12 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
               .exit_code == 0);
   CHECK(contains(read_file(inches + "/report.csv"), "x [in],x_deviation [in]"));
 
+  // A quantity that stands twice would share the fade with itself.
+  CHECK(contains(run_dashpot("watch " + model + " --in " + plant + " --tracked force,force " +
+                             healthy + " --output " + inches)
+                     .output,
+                 "tracked: 'force' is named twice; each once"));
+
   // The same folder again: nothing is looked at twice, and the same comes out.
   const ProgramResult again = run_dashpot(words + healthy);
   CHECK(contains(again.output, "8 days, 0 new recordings looked at"));

@@ -92,6 +92,13 @@ std::string outlook_words(const std::vector<WatchedQuantity>& quantities, const 
          " were known";
 }
 
+/// Throws Error where a name stands twice: shared between two, a fade would look half as large.
+void require_once(const std::vector<std::string>& names, const char* where) {
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error(where, "'" + *name + "' is named twice", "each once");
+}
+
 /// Refuses what no day can tell: half of a damper's force lies within what is open.
 void require_told(const WatchedPlant& watched) {
   constexpr double kMost = 25;  // usual amounts: half of the force
@@ -137,6 +144,8 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
   const auto follows = [&](const char* name) {
     return std::ranges::find(options.wears, name) != options.wears.end();
   };
+  require_once(options.wears, "tracked");
+  require_once(options.known, "known");
   if (follows("force") && follows("rebound") && follows("compression"))
     throw Error("tracked", "force is the sum of rebound and compression", "leave one of them out");
   for (const PlantSensor& sensor : setup.sensors)
