@@ -30,6 +30,9 @@ async function open(name, options = {}) {
     if (screenshots) await page.screenshot({path: join(screenshots, `${title.trim().replaceAll(" ", "-")}.png`), fullPage: true});
     const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
     assert.ok(content <= window, `${title}: the page is ${content} px wide in a window of ${window}`);
+    const remarks = page.locator("tbody tr > :nth-child(n + 4):last-child:not(.number)");
+    const squeezed = await remarks.evaluateAll((cells) => cells.filter((cell) => cell.offsetWidth < 150).length);
+    assert.equal(squeezed, 0, `${title}: remarks with a word per line`);
     assert.deepEqual(problems, [], title);
     await page.close();
   }};
