@@ -108,7 +108,8 @@ WatchedPlant watched_rig(const InPlantSetup& setup) {
 }
 
 /// What is told of days with these shares of force, of which six are for reference.
-std::vector<std::string> odd_days_among(const std::vector<double>& wears) {
+/// On the last one, what pushes the mass seems to be so many times what was recorded.
+std::vector<std::string> odd_days_among(const std::vector<double>& wears, double last_gain = 1) {
   const WatchedPlant watched = watched_oscillator({"force"});
   std::vector<WatchedDay> days;
   for (const double wear : wears)
@@ -118,8 +119,10 @@ std::vector<std::string> odd_days_among(const std::vector<double>& wears) {
                                  .plant = {10},
                                  .plant_deviation = {0.1},
                                  .excitation = 1 + 0.1 * double(days.size() % 3),
+                                 .input_gains = {{"push", 1 + 0.01 * double(days.size() % 3)}},
                                  .converged = true},
                     .known = {}});
+  days.back().estimate.input_gains[0].second = last_gain;
   const WatchOptions options{.wears = {"force"}, .chart = {.reference = 6, .days = 100}};
   return odd_days(watch_charts(watched, days, options), days);
 }
@@ -236,6 +239,23 @@ TEST_CASE("estimate_day: the wear and the load of a day, with deviations that ho
   CHECK_CLOSE(day.plant[0], 11, 0.02, 0);
 }
 
+TEST_CASE("estimate_day: an input that counts otherwise is told from a damper that fades") {
+  const WatchedPlant watched = watched_oscillator({"force"});
+  const auto gain_of = [&](double force, double shows) {
+    PlantRecording recording = oscillator_day(10, force, 5);
+    for (Channel& channel : recording.channels)
+      if (channel.name == "push")
+        for (double& value : channel.samples) value *= shows;
+    const DayEstimate day = estimate_day(watched, recording);
+    REQUIRE(day.input_gains.size() == 1);
+    CHECK(day.input_gains[0].first == "push");
+    return day.input_gains[0].second;
+  };
+  CHECK_CLOSE(gain_of(0, 1), 1, 0.02, 0);
+  CHECK_CLOSE(gain_of(-0.3, 1), 1, 0.02, 0);
+  CHECK_CLOSE(gain_of(0, 0.9), 1 / 0.9, 0.05, 0);
+}
+
 TEST_CASE("estimate_day: what would pass for a change of the damper is refused") {
   WatchedPlant watched = watched_oscillator({"force"});
   watched.setup.unknown.front().about = 10.0;
@@ -307,6 +327,19 @@ TEST_CASE("watch: a judged day far above the days before is told, one far below 
                "day 8 lies far above what was to be expected: force is 20 %, by the days before"));
 }
 
+TEST_CASE("watch: a day on which an input seems to count otherwise is told, faded or not") {
+  const auto told = [](double wear, double gain) {
+    return odd_days_among({0.034, 0.024, 0.025, 0.019, 0.03, 0.02, 0.028, 0.022, wear}, gain);
+  };
+  CHECK(told(-0.2, 1.02).empty());
+  CHECK(told(0.03, 1.04).empty());
+  REQUIRE(told(-0.2, 1.25).size() == 1);
+  CHECK(contains(told(-0.2, 1.25).front(),
+                 "day 8: its sensors fit the plant better if push is some 1.2 times what the "
+                 "recording shows (on the reference days 1.01 +- 0.0"));
+  CHECK(told(0.03, 0.8).size() == 1);
+}
+
 TEST_CASE("watch: what was found and the days come back as they were kept") {
   WatchedPlant watched = watched_oscillator({"force"});
   watched.setup.unknown.front().about = 10.5;
@@ -322,6 +355,7 @@ TEST_CASE("watch: what was found and the days come back as they were kept") {
                               .plant = {10},
                               .plant_deviation = {0.1},
                               .excitation = 2e-5,
+                              .input_gains = {{"push", 1.02}},
                               .iterations = 3,
                               .converged = true},
                  .known = {21}};

@@ -18,6 +18,7 @@ constexpr double kToldBlock = 1;           // s, of which what is told counts as
 constexpr std::size_t kTellStart = 500;    // samples that tell where a recording begins
 constexpr double kPlantShare = 0.02;       // of a number of the plant: its size as an unknown
 constexpr double kRoughnessFactor = 1.05;  // likewise
+constexpr double kInputShare = 0.02;       // of a measured input, likewise
 constexpr double kFlat = 4;  // of the misfit: where no step promises more, the search has ended
 
 /// A day's recording as a function of the unknowns: amounts of wear, numbers of the plant beside
@@ -31,7 +32,11 @@ class DayProblem {
   std::size_t amounts() const { return watched_->dampers.size() * watched_->wears.size(); }
   std::size_t block() const { return block_; }
   std::size_t settled() const { return settled_; }
-  Innovations at(const std::vector<double>& x) const { return innovations(observer(x), samples_); }
+  /// Behind the unknowns may stand by how much each measured input is greater than it shows.
+  Innovations at(const std::vector<double>& x) const {
+    return innovations(observer(x), x.size() == size_ ? samples_ : with_inputs(x));
+  }
+  std::vector<std::string> inputs() const { return measured_inputs(watched_->setup); }
   /// The innovations' misfit, -2 log of their likelihood but for a constant; infinite where the
   /// filter diverges.
   double misfit_of(const Innovations& told) const;
@@ -47,6 +52,7 @@ class DayProblem {
 
  private:
   PlantObserver observer(const std::vector<double>& x) const;
+  ObservedSamples with_inputs(const std::vector<double>& x) const;
   double plant_value(std::size_t k, const std::vector<double>& x) const;
   double roughness(const std::vector<double>& x) const;
   double excitation(const std::vector<double>& x) const;
@@ -95,14 +101,13 @@ double DayProblem::plant_value(std::size_t k, const std::vector<double>& x) cons
 }
 
 double DayProblem::roughness(const std::vector<double>& x) const {
-  return watched_->noise.roughness * (finds_road_ ? std::pow(kRoughnessFactor, x.back()) : 1);
+  return watched_->noise.roughness * (finds_road_ ? std::pow(kRoughnessFactor, x[size_ - 1]) : 1);
 }
 
 double DayProblem::excitation(const std::vector<double>& x) const {
-  const std::vector<std::string> inputs = measured_inputs(watched_->setup);
-  if (inputs.empty()) return roughness(x);
+  if (inputs().empty()) return roughness(x);
   double square = 0;
-  for (const double value : recording_->channel(inputs.front()).samples) square += value * value;
+  for (const double value : recording_->channel(inputs().front()).samples) square += value * value;
   return std::sqrt(square / static_cast<double>(samples_.count));
 }
 
@@ -121,6 +126,15 @@ PlantObserver DayProblem::observer(const std::vector<double>& x) const {
   }
   return {observer_tables(setup, dampers, noise, scale_, recording_->sample_time, watched_->steps),
           dampers};
+}
+
+ObservedSamples DayProblem::with_inputs(const std::vector<double>& x) const {
+  ObservedSamples moved = samples_;
+  const std::size_t width = samples_.inputs + 1;
+  for (std::size_t k = 0; k < samples_.count; ++k)
+    for (std::size_t i = 0; i < samples_.inputs; ++i)
+      moved.driven[k * width + i] *= 1 + kInputShare * x[size_ + i];
+  return moved;
 }
 
 double DayProblem::misfit_of(const Innovations& told) const {
@@ -177,7 +191,7 @@ struct Scores {
 std::optional<Scores> scores_at(const DayProblem& problem, const std::vector<double>& x,
                                 const std::vector<double>& lengths, const Innovations& told,
                                 std::size_t sensors) {
-  const std::size_t n = problem.size();
+  const std::size_t n = x.size();
   std::vector<Innovations> beside;
   for (std::size_t k = 0; k < n; ++k) {
     std::vector<double> moved = x;
@@ -336,6 +350,22 @@ class DaySearch {
   }
 
   const std::vector<double>& x() const { return x_; }
+  /// By how much each measured input would be greater if it were unknown too: the step of a search
+  /// that goes on with it.
+  std::vector<double> input_shares() const {
+    std::vector<double> x = x_, lengths = lengths_;
+    x.resize(x_.size() + problem_->inputs().size());
+    lengths.resize(x.size(), 1.0);
+    std::vector<double> shares(x.size() - x_.size());
+    const auto scores = scores_at(*problem_, x, lengths, told_, sensors_);
+    if (!scores) return shares;
+    const std::size_t n = x.size();
+    const std::vector<double> inverted = invert_symmetric(scores->information, n).inverse;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        shares[i] -= kInputShare * inverted[(x_.size() + i) * n + k] * scores->slope[k];
+    return shares;
+  }
   /// None where the search went astray.
   const std::optional<Scores>& scores() const { return scores_; }
   /// Of the misfit, by a further step; infinite where the search went astray.
@@ -437,6 +467,9 @@ DayEstimate estimate_day(const WatchedPlant& watched, const PlantRecording& reco
                 "a damper and a plant that fit the recording");
   day.converged = search.gain() < kFlat;
   problem.describe(search.x(), deviations_of(*search.scores()), day);
+  const std::vector<double> shares = search.input_shares();
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    day.input_gains.emplace_back(problem.inputs()[i], 1 + shares[i]);
   if (outlook) *outlook = outlook_of(*search.scores(), watched.dampers.size(), watched.wears);
   if (!at_an_end(watched, day).empty()) day.converged = false;
   return day;

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dashpot/machine/observe.h"
@@ -38,6 +39,9 @@ struct DayEstimate {
   /// How strongly the plant was moved: G_d(n0), m^3, of a road that nothing measures, else the rms
   /// of its first input, SI.
   double excitation = 0;
+  /// By its channel, how many times what each measured input shows would move the plant as its
+  /// sensors tell: to first order, beside all that is unknown.
+  std::vector<std::pair<std::string, double>> input_gains = {};
   int iterations = 0;
   bool converged = false;  ///< with all that was unknown of the plant inside its range
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "dashpot/base/parallel.h"
@@ -115,6 +116,48 @@ void require_told(const WatchedPlant& watched) {
                                outlook_words(quantities, one, quantities[a]) + " (95 %)",
                 "a sensor of each damper's own: its deflection, its wheel's acceleration");
   }
+}
+
+/// Mean and scatter of numbers, two or more.
+std::pair<double, double> mean_and_scatter(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / (count - 1))};
+}
+
+/// Days on which an input seems to count otherwise than on the reference days.
+std::vector<std::string> odd_inputs(const Chart& chart, const std::vector<WatchedDay>& days) {
+  constexpr double kOdd = 3.5, kLeast = 0.05;
+  constexpr std::size_t kFewest = 4;
+  std::vector<std::string> sentences;
+  if (days.empty()) return sentences;
+  for (std::size_t i = 0; i < days.back().estimate.input_gains.size(); ++i) {
+    std::vector<double> reference;
+    bool learns = true;
+    for (std::size_t d = 0; d < days.size(); ++d) {
+      const DayEstimate& day = days[d].estimate;
+      if (!day.converged || i >= day.input_gains.size()) continue;
+      const auto& [channel, gain] = day.input_gains[i];
+      learns &= !chart.points[d].is_judged;
+      if (learns) reference.push_back(gain);
+      if (learns || reference.size() < kFewest) continue;
+
+      // Beside the mean and the scatter of the reference days: of normal numbers a Student's t.
+      const auto [mean, scatter] = mean_and_scatter(reference);
+      const auto count = static_cast<double>(reference.size());
+      const double t = (gain - mean) / (scatter * std::sqrt(1 + 1 / count));
+      if (!(std::abs(normal_score(count - 1, t)) > kOdd)) continue;
+      if (!(std::abs(gain - mean) > kLeast)) continue;
+      sentences.push_back(day.name + ": its sensors fit the plant better if " + channel +
+                          " is some " + format_number(gain, 2) +
+                          " times what the recording shows (on the reference days " +
+                          format_number(mean, 3) + " +- " + format_number(scatter, 2) +
+                          "): look at that input, or at the sensors, before the damper");
+    }
+  }
+  return sentences;
 }
 
 }  // namespace
@@ -307,6 +350,8 @@ std::vector<std::string> odd_days(const std::vector<WatchedQuantity>& quantities
                           "healthy day, start anew without it");
     }
   }
+  if (!quantities.empty())
+    std::ranges::move(odd_inputs(quantities.front().chart, days), std::back_inserter(sentences));
   return sentences;
 }
 
@@ -391,12 +436,15 @@ WatchedPlant watched_again(ObservedDampers dampers, InPlantSetup setup, const Va
 
 Value to_json(const WatchedDay& day) {
   const DayEstimate& e = day.estimate;
+  Value gains = Value::object();
+  for (const auto& [channel, gain] : e.input_gains) gains.add(channel, gain);
   return Value::object({{"name", e.name},
                         {"wear", Value::array(e.wear)},
                         {"wear_deviation", Value::array(e.wear_deviation)},
                         {"plant", Value::array(e.plant)},
                         {"plant_deviation", Value::array(e.plant_deviation)},
                         {"excitation", e.excitation},
+                        {"input_gains", std::move(gains)},
                         {"iterations", e.iterations},
                         {"converged", e.converged},
                         {"known", Value::array(day.known)}});
@@ -413,6 +461,9 @@ WatchedDay watched_day_from_json(const Value& value) {
                   .excitation = reader.number("excitation"),
                   .iterations = static_cast<int>(reader.number("iterations")),
                   .converged = reader.boolean("converged", false)};
+  if (const Value* gains = reader.optional("input_gains"))  // states of before have none
+    for (const auto& [channel, gain] : gains->members())
+      day.estimate.input_gains.emplace_back(channel, gain.as_number());
   day.known = reader.required("known").as_numbers();
   reader.finish();
   return day;

@@ -68,8 +68,9 @@ std::vector<WatchedQuantity> watch_charts(const WatchedPlant& watched,
                                           const WatchOptions& options);
 
 /// Days that are odd, a sentence each: reference days far from the other ones, since a chart takes
-/// for healthy scatter what may be a fade, and judged days far above what was to be expected, since
-/// sensors raise what a fade would lower.
+/// for healthy scatter what may be a fade; judged days far above what was to be expected, since
+/// sensors raise what a fade would lower; days behind the reference on which a measured input seems
+/// to count otherwise than on these, by 5 % and more, which looks like a fade as well.
 std::vector<std::string> odd_days(const std::vector<WatchedQuantity>& quantities,
                                   const std::vector<WatchedDay>& days);
 
