@@ -27,6 +27,20 @@ std::vector<std::string> grade_names() {
   return names;
 }
 
+/// What the numbers that the plant calls unknown truly are: "mass 1 kg, stiffness 4000 N/m".
+std::string true_words(const InPlantSetup& asked, const InPlantSetup& setup) {
+  const auto& rows = setup.model->parameters;
+  std::vector<std::string> words;
+  for (const PlantUnknown& unknown : asked.unknown) {
+    const auto value =
+        std::ranges::find(setup.known, unknown.name, &NamedValues::value_type::first);
+    const ParameterRow& row = rows[row_named(rows, unknown.name, setup.model->name, "--true")];
+    words.push_back(unknown.name + ' ' + format_number(value->second, 6) + ' ' +
+                    std::string(row.unit));
+  }
+  return join(words, ", ");
+}
+
 /// The setup as it truly is: stated values in place of unknown ones, else those of the plant's
 /// table.
 InPlantSetup true_setup(InPlantSetup setup, const PlantBenchSettings& settings) {
@@ -273,14 +287,18 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   std::string levels;
   for (const double level : options.levels)
     levels += (levels.empty() ? "" : ", ") + format_number(level);
-  console.print(counted(rides.size(), "ride") + " of the " +
-                (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
-                format_number(options.duration) + " s each, at " + levels + ' ' +
-                to_string(damper.model.drive_unit()) +
-                (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
-                "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +
-                plant.string() + ", as it truly is\nNext        dashpot identify " +
-                shell_quoted(folder) + " --in " + shell_quoted(settings.plant) + '\n');
+  console.print(
+      counted(rides.size(), "ride") + " of the " +
+      (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
+      format_number(options.duration) + " s each, at " + levels + ' ' +
+      to_string(damper.model.drive_unit()) + (options.road.empty() ? "" : ", on " + options.road) +
+      "\n\nRecordings  " + folder + "/ride_*.csv\nTruth       " + folder +
+      "/truth/, of the same names\nPlant       " + plant.string() + ", as it truly is\n" +
+      (asked.unknown.empty()
+           ? ""
+           : "Unknown     truly " + true_words(asked, setup) + " (--true states others)\n") +
+      "Next        dashpot identify " + shell_quoted(folder) + " --in " +
+      shell_quoted(settings.plant) + '\n');
   if (console.json)
     console.print_json(
         Value::object({{"folder", folder}, {"rides", std::move(list)}, {"plant", plant.string()}}));

@@ -35,6 +35,8 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
       run_dashpot("bench --in " + car + " --levels 1 --duration 3 --output " + rides);
   REQUIRE(made.exit_code == 0);
   CHECK(contains(made.output, "1 ride of the quarter_car, 3 s each, at 1 V, on iso8608"));
+  CHECK(
+      contains(made.output, "Unknown     truly tyre_stiffness 295200 N/m (--true states others)"));
   CHECK(contains(read_file(rides + "/ride_1.csv"), "time [s],az_body [m/s^2],az_wheel [m/s^2]"));
   CHECK(contains(read_file(rides + "/truth/plant.json"), "\"tyre_stiffness\": 295200"));
 
