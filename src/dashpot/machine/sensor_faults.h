@@ -20,10 +20,11 @@ std::vector<std::string> held_sensors(const InPlantSetup& setup, const PlantReco
 
 /// The sensor whose zero drifts along a recording, in a sentence; empty where none does: a straight
 /// line of the sensor explains what no slow error of the dampers' forces does as well. `tried`:
-/// filters with slow errors of several sizes, under each of which the recording is asked with the
-/// line and without it; the likelihoods of the best of both are compared, less what correlation
-/// leaves of them (by 24 pieces of time). Where a filter is right, one of 1000 sets of so many
-/// recordings raises a warning. Lines of less than three times what the zeros are uncertain by
+/// filters with slow errors of several sizes, the least ones last, under each of which the
+/// recording is asked with the line and without it; the likelihoods of the best of both are
+/// compared, less what correlation leaves of them (by 24 pieces of time). Where a filter is right,
+/// one of 1000 sets of so many recordings raises a warning. Lines of less than three times what the
+/// zeros are uncertain by
 /// (`zeros`, per sensor) raise none.
 /// Source: A. S. Willsky and H. L. Jones, A generalized likelihood ratio approach to the detection
 /// and estimation of jumps in linear systems, IEEE Trans. Automatic Control 21, 1976, 108-112;
