@@ -130,6 +130,11 @@ TEST_CASE("SHA-256 of the standard's test message") {
         "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-TEST_CASE("SHA-256 of bytes: the example of FIPS 180-4") {
+TEST_CASE("SHA-256 of bytes: the examples of FIPS 180-4") {
   CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  const std::string many(1'000'000, 'a'),
+      expected = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
+  CHECK(sha256(many) == expected);
+  const TemporaryFolder folder;
+  CHECK(sha256_of_file(folder.write("many", many)) == expected);
 }

@@ -14,7 +14,6 @@
 #include <vector>
 #include <zlib.h>
 
-#include <sha2.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -365,24 +364,14 @@ void write_file(const fs::path& path, std::string_view content) {
   sweep_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
 }
 
-std::string sha256(std::string_view bytes) {
-  std::array<char, SHA256_DIGEST_STRING_LENGTH> text;
-  SHA256Data(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), text.data());
-  return text.data();
-}
-
-std::string sha256_of_file(const fs::path& path) {
+void visit_bytes(const fs::path& path, const std::function<void(std::string_view)>& visit) {
   std::size_t size = 0;
   const Descriptor file(open_regular(path, size));
-  SHA2_CTX context;
-  SHA256Init(&context);
-  std::array<std::uint8_t, 1 << 16> block;
+  std::array<char, 1 << 16> block;
   ssize_t n;
   while ((n = read(file, block.data(), block.size())) > 0)
-    SHA256Update(&context, block.data(), static_cast<std::size_t>(n));
+    visit({block.data(), static_cast<std::size_t>(n)});
   if (n < 0) throw Error(path.string(), "cannot be read: " + reason());
-  std::array<char, SHA256_DIGEST_STRING_LENGTH> text;
-  return SHA256End(&context, text.data());
 }
 
 }  // namespace dashpot

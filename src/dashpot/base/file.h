@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -64,7 +65,13 @@ class MemoryFile {
 /// With all its parents; nothing happens when it is there. Throws Error when it cannot be made.
 void make_folder(const std::filesystem::path& path);
 
-/// SHA-256 of bytes and of a file's, in hexadecimal.
+/// Shows the bytes of a file as they lie there, packed or not, block by block. Throws Error when it
+/// cannot be read.
+void visit_bytes(const std::filesystem::path& path,
+                 const std::function<void(std::string_view)>& visit);
+
+/// SHA-256 of bytes and of a file's, in hexadecimal. They stand in sha256.cpp, apart from the rest:
+/// the child that reads HDF5 starts without OpenSSL.
 std::string sha256(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& path);
 
