@@ -35,6 +35,23 @@ TEST_CASE("the velocity of a sine has its amplitude and no delay") {
     CHECK_CLOSE(v[static_cast<std::size_t>(n)], amplitude * std::cos(w * n * dt), 1e-9, 1e-9);
 }
 
+TEST_CASE("a cut-off that is chosen on the way gives the slope that it gives when stated") {
+  Random random(2);
+  std::vector<double> fast = sine(0.01, 1, 0.001, 20000);
+  for (std::size_t k = 9000; k < 9400; ++k)
+    fast[k] += 0.002 * std::sin(0.2 * static_cast<double>(k - 9000));
+  std::vector<double> many(120'000);
+  for (double& x : many) x = random.normal();
+  for (const auto& [x, dt] : {std::pair{fast, 0.001}, {fast, 0.02}, {many, 0.001}}) {
+    const Derivative chosen = smooth_derivative(x, dt);
+    CHECK(chosen.cutoff_hz == choose_cutoff_hz(x, dt));
+    CHECK(chosen.slope == differentiate_zero_phase(x, dt, chosen.cutoff_hz));
+    const Derivative stated = smooth_derivative(x, dt, 7);
+    CHECK(stated.cutoff_hz == 7);
+    CHECK(stated.slope == differentiate_zero_phase(x, dt, 7));
+  }
+}
+
 TEST_CASE("ends follow a ramp") {
   std::vector<double> x;
   for (int n = 0; n < 100; ++n) x.push_back(0.3 * n * 0.01);

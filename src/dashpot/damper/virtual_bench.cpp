@@ -75,9 +75,9 @@ Channel measured_velocity(std::vector<double> velocity, double noise, Random& ra
 
 /// The velocity as a reader would derive it from the measured displacement.
 Channel derived_velocity(const std::vector<double>& displacement, double dt) {
-  const double cutoff = choose_cutoff_hz(displacement, dt);
-  return {"velocity", "m/s", differentiate_zero_phase(displacement, dt, cutoff),
-          "derived from displacement, " + format_number(cutoff) + " Hz zero-phase"};
+  Derivative velocity = smooth_derivative(displacement, dt);
+  return {"velocity", "m/s", std::move(velocity.slope),
+          "derived from displacement, " + format_number(velocity.cutoff_hz) + " Hz zero-phase"};
 }
 
 Record run_test(const DamperModel& damper, const BenchTest& test, DriveUnit drive_unit,

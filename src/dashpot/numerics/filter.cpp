@@ -11,9 +11,10 @@ namespace dashpot {
 namespace {
 
 /// One pass of the cascade in place (direct form II transposed), started in the steady state that a
-/// constant input of x.front() would have reached.
-void filter_forward(const std::vector<Biquad>& sections, std::vector<double>& x) {
-  double level = x.front();
+/// constant input of the first sample would have reached.
+template <class Iterator>
+void filter_in_place(const std::vector<Biquad>& sections, Iterator begin, Iterator end) {
+  double level = *begin;
   for (const Biquad& s : sections) {
     // Both memories stand where a constant `level` would have brought them, so that the start makes
     // no transient.
@@ -21,12 +22,12 @@ void filter_forward(const std::vector<Biquad>& sections, std::vector<double>& x)
     double z2 = s.b2 * level - s.a2 * settled;
     double z1 = s.b1 * level - s.a1 * settled + z2;
 
-    for (double& sample : x) {
-      const double in = sample;
+    for (Iterator sample = begin; sample != end; ++sample) {
+      const double in = *sample;
       const double out = s.b0 * in + z1;
       z1 = s.b1 * in - s.a1 * out + z2;
       z2 = s.b2 * in - s.a2 * out;
-      sample = out;
+      *sample = out;
     }
 
     // The next section's input starts at what this one settles to.
@@ -81,10 +82,9 @@ std::vector<double> filter_zero_phase(const std::vector<Biquad>& sections,
   std::vector<double> y = extend_odd(x, margin);
 
   // A second pass from the end takes back the phase shift of the first.
-  for (int pass = 0; pass < 2; ++pass) {
-    filter_forward(sections, y);
-    std::reverse(y.begin(), y.end());
-  }
+  filter_in_place(sections, y.begin(), y.end());
+  filter_in_place(sections, y.rbegin(), y.rend());
+
   // Cut in place: a second copy of a long record would cost its size again.
   y.resize(margin + x.size());
   y.erase(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(margin));

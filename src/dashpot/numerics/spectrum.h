@@ -16,8 +16,8 @@ struct PowerSpectrum {
 /// s. The powers add up to about the variance of x. Empty for an empty signal.
 PowerSpectrum power_spectrum(std::span<const double> x, double dt);
 
-/// The mean over equal parts of a long signal: each is long enough to resolve a motion, and the
-/// memory does not grow with the signal.
+/// The mean over equal parts of a long signal, on all cores: each is long enough to resolve a
+/// motion.
 PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt);
 
 /// sum over j of x_j exp(-2 pi i j k / n), n the samples, k = 0 ... n / 2. Quick where n has small

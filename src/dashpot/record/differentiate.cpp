@@ -1,10 +1,12 @@
 #include "dashpot/record/differentiate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/filter.h"
@@ -12,6 +14,9 @@
 
 namespace dashpot {
 namespace {
+
+constexpr std::size_t kFewestSamples = 4;
+constexpr std::size_t kMany = 100'000;  // samples from which threads pay
 
 /// Central differences in place, one-sided of second order at the ends.
 void to_slope(std::vector<double>& x, double dt) {
@@ -64,42 +69,31 @@ bool cuts_a_motion(std::span<const double> low, std::span<const double> middle,
 }
 
 /// What is slow for long and fast for a while, as the record of a shock dyno, has nearly all of its
-/// power where it is slow. Doubles the cut-off for as long as a fast stretch loses speed by it.
-double raised_for_fast_stretches(std::span<const double> x, double dt, double cutoff_hz,
-                                 double highest_hz) {
+/// power where it is slow. Doubles the cut-off for as long as a fast stretch loses speed by it. The
+/// slope stays empty where there is no room for that.
+Derivative raised_for_fast_stretches(std::span<const double> x, double dt, double cutoff_hz,
+                                     double highest_hz) {
   constexpr double kPeriods = 5;  // of the cut-off in a stretch
-  constexpr std::size_t kFewest = 4;
-  if (x.size() < kFewest || !(4 * cutoff_hz <= highest_hz)) return cutoff_hz;
-  std::vector<double> low = differentiate_zero_phase(x, dt, cutoff_hz);
-  std::vector<double> middle = differentiate_zero_phase(x, dt, 2 * cutoff_hz);
-  while (4 * cutoff_hz <= highest_hz) {
+  if (x.size() < kFewestSamples || !(4 * cutoff_hz <= highest_hz)) return {cutoff_hz, {}};
+  std::array<std::vector<double>, 3> slopes;  // at the cut-off, twice and four times that
+  parallel_for(slopes.size(), x.size() < kMany ? 1 : 0, [&](std::size_t k) {
+    slopes[k] = differentiate_zero_phase(x, dt, static_cast<double>(1 << k) * cutoff_hz);
+  });
+  auto& [low, middle, high] = slopes;
+  for (;;) {
     const auto stretch = static_cast<std::size_t>(std::ceil(kPeriods / (cutoff_hz * dt)));
-    std::vector<double> high = differentiate_zero_phase(x, dt, 4 * cutoff_hz);
     if (!cuts_a_motion(low, middle, high, stretch)) break;
     cutoff_hz *= 2;
     low = std::move(middle);
     middle = std::move(high);
+    if (!(4 * cutoff_hz <= highest_hz)) break;
+    high = differentiate_zero_phase(x, dt, 4 * cutoff_hz);
   }
-  return cutoff_hz;
+  return {cutoff_hz, std::move(low)};
 }
 
-}  // namespace
-
-std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
-                                             double cutoff_hz) {
-  constexpr std::size_t kFewest = 4;
-  if (x.size() < kFewest)
-    throw Error("velocity from displacement", "only " + std::to_string(x.size()) + " samples",
-                "at least " + std::to_string(kFewest) + " are needed");
-  const std::vector<Biquad> lowpass = butterworth_lowpass(2, cutoff_hz, dt);
-  // Within two periods of the cut-off the filter forgets its start to exp(-2 pi sqrt(2)) = 1e-4.
-  const auto margin = static_cast<std::size_t>(std::ceil(2 / (cutoff_hz * dt)));
-  std::vector<double> velocity = filter_zero_phase(lowpass, x, margin);
-  to_slope(velocity, dt);
-  return velocity;
-}
-
-double choose_cutoff_hz(std::span<const double> x, double dt) {
+/// The cut-off that the motion asks for, and the slope where that was taken on the way.
+Derivative chosen_by_the_motion(std::span<const double> x, double dt) {
   constexpr double kPowerShare = 0.99, kMargin = 10, kLowest = 10, kHighestTimesDt = 0.4;
   const PowerSpectrum spectrum = mean_power_spectrum(x, dt);
   const double wanted =
@@ -114,6 +108,33 @@ double choose_cutoff_hz(std::span<const double> x, double dt) {
   const double highest = kHighestTimesDt / dt;
   const double chosen = std::min(std::max(kMargin * motion_hz, kLowest), highest);
   return raised_for_fast_stretches(x, dt, chosen, highest);
+}
+
+}  // namespace
+
+std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
+                                             double cutoff_hz) {
+  if (x.size() < kFewestSamples)
+    throw Error("velocity from displacement", "only " + std::to_string(x.size()) + " samples",
+                "at least " + std::to_string(kFewestSamples) + " are needed");
+  const std::vector<Biquad> lowpass = butterworth_lowpass(2, cutoff_hz, dt);
+  // Within two periods of the cut-off the filter forgets its start to exp(-2 pi sqrt(2)) = 1e-4.
+  const auto margin = static_cast<std::size_t>(std::ceil(2 / (cutoff_hz * dt)));
+  std::vector<double> velocity = filter_zero_phase(lowpass, x, margin);
+  to_slope(velocity, dt);
+  return velocity;
+}
+
+double choose_cutoff_hz(std::span<const double> x, double dt) {
+  return chosen_by_the_motion(x, dt).cutoff_hz;
+}
+
+Derivative smooth_derivative(std::span<const double> x, double dt, double cutoff_hz) {
+  Derivative derivative{cutoff_hz, {}};
+  if (!(cutoff_hz > 0)) derivative = chosen_by_the_motion(x, dt);
+  if (derivative.slope.empty())
+    derivative.slope = differentiate_zero_phase(x, dt, derivative.cutoff_hz);
+  return derivative;
 }
 
 }  // namespace dashpot

@@ -16,4 +16,14 @@ std::vector<double> differentiate_zero_phase(std::span<const double> x, double d
 /// from a stretch of the record that is fast, and no noise looks like that.
 double choose_cutoff_hz(std::span<const double> x, double dt);
 
+/// A slope, and the cut-off with which it was taken.
+struct Derivative {
+  double cutoff_hz = 0;
+  std::vector<double> slope;
+};
+
+/// differentiate_zero_phase() at that cut-off, or where it is 0 at the one of choose_cutoff_hz(),
+/// which takes the slope on its way.
+Derivative smooth_derivative(std::span<const double> x, double dt, double cutoff_hz = 0);
+
 }  // namespace dashpot

@@ -34,12 +34,11 @@ std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutof
       continue;
 
     // Derive it as on loading, and compare over the whole record.
-    const std::vector<double>& x = displacement->samples;
-    const double cutoff = cutoff_hz > 0 ? cutoff_hz : choose_cutoff_hz(x, record.sample_time);
-    const std::vector<double> derived = differentiate_zero_phase(x, record.sample_time, cutoff);
-    const double percent = rms_difference_percent(derived, velocity->samples);
+    const Derivative derived =
+        smooth_derivative(displacement->samples, record.sample_time, cutoff_hz);
+    const double percent = rms_difference_percent(derived.slope, velocity->samples);
     if (std::isfinite(percent))
-      checks.push_back({record.name, cutoff, percent});  // not without motion
+      checks.push_back({record.name, derived.cutoff_hz, percent});  // not without motion
   }
   return checks;
 }
