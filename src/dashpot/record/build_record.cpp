@@ -426,14 +426,14 @@ void add_velocity(Record& record, const BuildContext& context) {
   std::string basis = "stated";
   if (!(cutoff > 0) && context.velocity_cutoff_hz > 0)
     cutoff = context.velocity_cutoff_hz, basis = "as asked";
-  if (!(cutoff > 0))
-    cutoff = choose_cutoff_hz(x, record.sample_time), basis = "chosen from the motion";
+  if (!(cutoff > 0)) basis = "chosen from the motion";
 
   try {
-    record.channels.push_back({"velocity", "m/s",
-                               differentiate_zero_phase(x, record.sample_time, cutoff),
-                               "derived from displacement, " + format_number(cutoff, 3) +
-                                   " Hz zero-phase (" + basis + ")"});
+    Derivative velocity = smooth_derivative(x, record.sample_time, cutoff);
+    record.channels.push_back({"velocity", "m/s", std::move(velocity.slope),
+                               "derived from displacement, " +
+                                   format_number(velocity.cutoff_hz, 3) + " Hz zero-phase (" +
+                                   basis + ")"});
   } catch (const Error& error) {
     throw Error(record.source, error.what());
   }
@@ -548,12 +548,15 @@ void settle_inertia(Record& record, const ColumnUses& uses) {
     return;
   }
 
-  const std::vector<double> acceleration = acceleration_of(record);
-  if (acceleration.empty()) return;
+  // Most records are so slow that their plain differences tell that it is not felt.
   constexpr double kFelt = 0.02;  // of the force's half span
-  const double usual = usual_acceleration(acceleration);
   const auto [low, high] = std::ranges::minmax_element(record.channel("force").samples);
   const double half_span = 0.5 * (*high - *low);
+  if (greatest_acceleration(record) <= kFelt * half_span) return;
+
+  const std::vector<double> acceleration = acceleration_of(record);
+  if (acceleration.empty()) return;
+  const double usual = usual_acceleration(acceleration);
   if (half_span > 0 && usual > kFelt * half_span)
     record.notes.push_back("each kilogram that moves between load cell and damper adds up to " +
                            format_number(usual, 3) + " N (" +

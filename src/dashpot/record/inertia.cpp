@@ -12,8 +12,20 @@ std::vector<double> acceleration_of(const Record& record) {
   if (const Channel* recorded = record.find("acceleration")) return recorded->samples;
   constexpr std::size_t kFewest = 4;
   if (!(record.sample_time > 0) || record.size() < kFewest) return {};
+  return smooth_derivative(record.channel("velocity").samples, record.sample_time).slope;
+}
+
+double greatest_acceleration(const Record& record) {
+  constexpr std::size_t kMany = 1000;  // above the usual one are more than the two at the ends
+  if (record.find("acceleration") || record.size() < kMany) return INFINITY;
   const std::vector<double>& v = record.channel("velocity").samples;
-  return differentiate_zero_phase(v, record.sample_time, choose_cutoff_hz(v, record.sample_time));
+  double greatest = 0;
+  for (std::size_t k = 1; k < v.size(); ++k)
+    greatest = std::max(greatest, std::abs(v[k] - v[k - 1]));
+
+  // It is applied twice, and filters the differences as it does the samples.
+  constexpr double kSumOfResponse = 1.75;  // of the low-pass, by size, at its highest cut-off
+  return kSumOfResponse * kSumOfResponse * greatest / record.sample_time;
 }
 
 double usual_acceleration(const std::vector<double>& acceleration) {

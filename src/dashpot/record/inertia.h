@@ -11,6 +11,10 @@ namespace dashpot {
 /// are not uniform or too few.
 std::vector<double> acceleration_of(const Record& record);
 
+/// What the usual acceleration, derived from the velocity, cannot exceed: one look at the
+/// differences, where deriving it takes a spectrum and filters. Infinite where that tells nothing.
+double greatest_acceleration(const Record& record);
+
 /// The greatest acceleration that is usual, m/s^2: one sample of noise is no motion.
 double usual_acceleration(const std::vector<double>& acceleration);
 

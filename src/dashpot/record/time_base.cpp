@@ -22,16 +22,33 @@ double printed_digit(std::span<const double> stamps) {
   return 0;
 }
 
-double power_of_ten(double t) {
-  return t == 0 ? 1e-300 : std::pow(10.0, std::floor(std::log10(std::abs(t))));
-}
+/// The power of ten of numbers. Those that follow each other, as stamps do, mostly share one.
+class PowersOfTen {
+ public:
+  double of(double t) {
+    const double size = std::abs(t);
+    if (size > least_ && size < most_) return power_;
+    if (t == 0) return 1e-300;
+    power_ = std::pow(10.0, std::floor(std::log10(size)));
+
+    // The next ones are not so close to another power that rounding would decide.
+    constexpr double kApart = 1e-9;
+    least_ = power_ * (1 + kApart);
+    most_ = 10 * power_ * (1 - kApart);
+    return power_;
+  }
+
+ private:
+  double power_ = 0, least_ = 0, most_ = 0;
+};
 
 /// To how many significant digits the stamps are printed (0.0003328 ... 24.6496: 6), or 0 for all.
 int significant_digits(std::span<const double> stamps) {
+  PowersOfTen power;
   for (int digits = 3; digits < 10; ++digits) {
     const double scale = std::pow(10.0, digits - 1);
     if (std::all_of(stamps.begin(), stamps.end(),
-                    [&](double t) { return whole(t / power_of_ten(t) * scale); }))
+                    [&](double t) { return whole(t / power.of(t) * scale); }))
       return digits;
   }
   return 0;
@@ -124,10 +141,12 @@ double uniform_step(std::span<const double> stamps) {
   // grows with the stamp, or single precision, which does so in powers of two?
   const double digit = printed_digit(stamps);
   const int digits = digit > 0 ? significant_digits(stamps) : 0;
+  const double least_share = std::pow(10.0, 1 - digits);  // of a stamp's power of ten
   const bool single = digit == 0 && single_precision(stamps);
+  PowersOfTen power;
   const auto place = [&](double t) {
     if (single) return single_spacing(t);
-    return digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
+    return digits > 0 ? std::max(digit, least_share * power.of(t)) : digit;
   };
   // Coarse digits (0 1 2 4 5) cannot show that a gap is rounding: then only an exact grid is
   // uniform.
