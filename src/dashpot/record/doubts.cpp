@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string_view>
 
+#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/record/side_passes.h"
 #include "dashpot/record/time_base.h"
@@ -45,14 +47,23 @@ double usual_span(Samples values) {
   const auto place = [&](double share) {
     return static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   };
-  const auto value_at = [&](double share) {
+  const auto value_at = [&](double share, Samples::iterator from) {
     const auto at = values.begin() + place(share);
-    std::nth_element(values.begin(), at, values.end());
+    std::nth_element(from, at, values.end());
     return *at;
   };
   constexpr double kLow = 0.01, kHigh = 0.99;
-  const double low = value_at(kLow);
-  return value_at(kHigh) - low;
+  const double low = value_at(kLow, values.begin());
+  // What is larger stands behind it now.
+  return value_at(kHigh, values.begin() + place(kLow)) - low;
+}
+
+/// How far the values go from sample to sample.
+Samples steps_of(const Samples& values) {
+  Samples steps(values.size() - 1);
+  for (std::size_t k = 1; k < values.size(); ++k)
+    steps[k - 1] = std::abs(values[k] - values[k - 1]);
+  return steps;
 }
 
 std::string seconds(double time) { return format_number(time, 5) + " s"; }
@@ -91,18 +102,19 @@ std::optional<std::string> stuck_displacement(const Record& record, const Sample
   constexpr std::size_t kLeast = 5;
   constexpr double kLeap = 3, kUsual = 0.95;
 
+  const std::vector<Run> stops = equal_runs(displacement, kLeast);
+  if (stops.empty()) return std::nullopt;
+
   // How far it usually goes at most from sample to sample.
-  Samples steps;
-  for (std::size_t k = 1; k < displacement.size(); ++k)
-    steps.push_back(std::abs(displacement[k] - displacement[k - 1]));
-  Samples sorted = steps;
+  Samples steps = steps_of(displacement);
   const auto usual =
-      sorted.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), usual, sorted.end());
+      steps.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(steps.size() - 1));
+  std::nth_element(steps.begin(), usual, steps.end());
 
   // A leap behind a stop is far above that.
-  for (const Run& run : equal_runs(displacement, kLeast))
-    if (run.end < displacement.size() && steps[run.end - 1] > kLeap * *usual && *usual > 0)
+  for (const Run& run : stops)
+    if (run.end < displacement.size() && *usual > 0 &&
+        std::abs(displacement[run.end] - displacement[run.end - 1]) > kLeap * *usual)
       return "the displacement stands still " + between(record, run) +
              " and leaps then: the sensor stuck, or samples were lost";
   return std::nullopt;
@@ -112,9 +124,7 @@ std::optional<std::string> stuck_displacement(const Record& record, const Sample
 bool is_smooth(const Samples& values) {
   constexpr double kShare = 0.05;  // of the span, in the median
   const auto [low, high] = std::ranges::minmax(values);
-  Samples steps;
-  for (std::size_t k = 1; k < values.size(); ++k)
-    steps.push_back(std::abs(values[k] - values[k - 1]));
+  Samples steps = steps_of(values);
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::ranges::nth_element(steps, middle);
   return *middle < kShare * (high - low);
@@ -264,6 +274,15 @@ std::optional<std::string> held(const Record& record, const Samples& values,
   constexpr std::size_t kFewest = 10, kRest = 3;
   constexpr double kAlike = 0.8, kAbove = 3;
 
+  // Where most samples differ from the one before it, nothing is held.
+  std::size_t runs = 0, single = 0;
+  visit_equal_runs(values, [&](const Run& run) {
+    if (run.end == values.size()) return;
+    ++runs;
+    single += run.count() == 1;
+  });
+  if (single > runs / 2) return std::nullopt;
+
   // How long it stands each time but the last, and how far it goes then.
   std::vector<std::size_t> lengths;
   Samples steps;
@@ -310,14 +329,14 @@ std::optional<std::string> held(const Record& record, const Samples& values,
 /// where the digits of a last number are missing.
 std::optional<std::string> leap_at_an_end(const Samples& values, std::string_view name) {
   constexpr double kLeap = 10;
-  Samples steps;
-  for (std::size_t k = 1; k < values.size(); ++k)
-    steps.push_back(std::abs(values[k] - values[k - 1]));
-  const double largest = *std::max_element(steps.begin() + 1, steps.end() - 1);
+  const auto step_to = [&](std::size_t k) { return std::abs(values[k] - values[k - 1]); };
+  const std::size_t last = values.size() - 1;
+  double largest = 0;
+  for (std::size_t k = 2; k < last; ++k) largest = std::max(largest, step_to(k));
   if (largest == 0) return std::nullopt;
-  if (steps.back() > kLeap * largest)
+  if (step_to(last) > kLeap * largest)
     return "the " + std::string(name) + " leaps at the last sample: the file may have been cut off";
-  if (steps.front() > kLeap * largest)
+  if (step_to(1) > kLeap * largest)
     return "the " + std::string(name) +
            " leaps behind the first sample, which may be none: 'cut' in a dataset file leaves it "
            "out";
@@ -347,50 +366,73 @@ std::optional<std::string> wrong_scale(const Record& record, const Samples& disp
          " times that of the displacement: the unit of one of them may be wrong";
 }
 
+/// Spikes are told of where no placeholder is taken for one.
+std::optional<std::string> spikes_or_placeholder(const Record& record, const Channel& channel) {
+  if (auto missing = placeholder(record, channel)) return missing;
+  const double span = usual_span(channel.samples);
+  return span > 0 ? spikes(record, channel.samples, span, channel.name) : std::nullopt;
+}
+
+/// Where the stamps tell that samples are missing and nothing was resampled.
+std::optional<std::string> lost(const Record& record) {
+  if (record.sample_time > 0) return std::nullopt;
+  const LostSamples lost = lost_samples(record.time);
+  if (lost.places == 0) return std::nullopt;
+  return describe(lost) +
+         ": the logger lost them; 'resample' in a dataset file fills them with straight lines";
+}
+
+/// A clipped force stands still, too.
+std::optional<std::string> clipped_or_stuck_force(const Record& record, const Samples& force,
+                                                  const Samples& displacement) {
+  const auto [low, high] = std::ranges::minmax(displacement);
+  if (high <= low) return std::nullopt;
+  const auto clipped = clipped_force(force, displacement, high - low);
+  return clipped ? clipped : stuck_force(record, force, displacement, high - low);
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about(const Record& record) {
   std::vector<std::string> doubts = doubts_about_units(record);
-  const auto add = [&](const std::optional<std::string>& doubt) {
-    if (doubt) doubts.push_back(*doubt);
-  };
-  constexpr std::size_t kFewest = 20;  // samples that tell a pattern
+  constexpr std::size_t kFewest = 20;     // samples that tell a pattern
+  constexpr std::size_t kMany = 100'000;  // from which threads pay
   if (record.size() < kFewest) return doubts;
+  std::vector<std::function<std::optional<std::string>()>> checks;
 
   // What the channels show by themselves.
   const Channel* const force = record.find("force");
   const Channel* const displacement = record.find("displacement");
   for (const Channel* channel : {displacement, force})
     if (channel) {
-      const double span = usual_span(channel->samples);
-      const auto missing = placeholder(record, *channel);
-      if (!missing && span > 0) add(spikes(record, channel->samples, span, channel->name));
-      add(missing);
-      add(leap_at_an_end(channel->samples, channel->name));
+      checks.emplace_back([&record, channel] { return spikes_or_placeholder(record, *channel); });
+      checks.emplace_back([channel] { return leap_at_an_end(channel->samples, channel->name); });
     }
   for (const std::string_view name : {"displacement", "velocity", "force"})
-    if (const Channel* channel = record.find(name)) add(held(record, channel->samples, name));
+    if (const Channel* channel = record.find(name))
+      checks.emplace_back(
+          [&record, channel] { return held(record, channel->samples, channel->name); });
 
-  // What a logger lost, where the stamps tell and nothing was resampled.
-  if (!(record.sample_time > 0))
-    if (const LostSamples lost = lost_samples(record.time); lost.places > 0)
-      doubts.push_back(describe(lost) +
-                       ": the logger lost them; 'resample' in a dataset file fills them with "
-                       "straight lines");
+  // What a logger lost, and what the motion makes implausible.
+  checks.emplace_back([&record] { return lost(record); });
+  if (displacement) {
+    const Samples& x = displacement->samples;
+    checks.emplace_back([&] {
+      const auto stuck = stuck_displacement(record, x);
+      return stuck ? stuck : dead_displacement(record, x);
+    });
+    checks.emplace_back([&] { return stuck_velocity(record, x); });
+    checks.emplace_back([&] { return wrong_scale(record, x); });
+    if (force)
+      checks.emplace_back([&] { return clipped_or_stuck_force(record, force->samples, x); });
+  }
 
-  // What the motion makes implausible.
-  if (!displacement) return doubts;
-  const auto stuck = stuck_displacement(record, displacement->samples);
-  add(stuck ? stuck : dead_displacement(record, displacement->samples));
-  add(stuck_velocity(record, displacement->samples));
-  add(wrong_scale(record, displacement->samples));
-  const auto [low, high] = std::ranges::minmax(displacement->samples);
-  if (!force || high <= low) return doubts;
-  // A clipped force stands still, too.
-  const double stroke = high - low;
-  const std::optional<std::string> clipped =
-      clipped_force(force->samples, displacement->samples, stroke);
-  add(clipped ? clipped : stuck_force(record, force->samples, displacement->samples, stroke));
+  // Beside each other where there is much to look at; told in this order.
+  std::vector<std::optional<std::string>> found(checks.size());
+  parallel_for(checks.size(), record.size() < kMany ? 1 : 0,
+               [&](std::size_t k) { found[k] = checks[k](); });
+  for (std::optional<std::string>& doubt : found)
+    if (doubt) doubts.push_back(std::move(*doubt));
   return doubts;
 }
 
