@@ -296,6 +296,48 @@ TEST_CASE("a file longer than the read block keeps every row") {
   }
 }
 
+// Longer than what is read at once, on however many cores.
+TEST_CASE("odd lines among very many plain ones stay where they are") {
+  const auto text_with = [](const std::string& odd, int at) {
+    std::string text = "t,x,note\n";
+    for (int k = 0; k < 600'000; ++k) {
+      if (k == at) text += odd;
+      text += std::to_string(k) + "," + std::to_string(-k) + ",1.5\n";
+    }
+    return text;
+  };
+  constexpr int kAt = 450'000;
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& odd) {
+    return read_csv(folder.write("long.csv", text_with(odd, kAt))).front();
+  };
+
+  // A comment and the names once more are no rows; cells that are no numbers keep their place.
+  const RawTable table = read("# paused\nt,x,note\n\n");
+  REQUIRE(table.rows() == 600'000);
+  for (std::size_t k = 0; k < table.rows(); ++k)
+    if (table.columns[1].values[k] != -static_cast<double>(k)) FAIL("row " << k);
+  CHECK(table.lines == std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {kAt, kAt + 5}});
+  CHECK(table.notes.back().ends_with("long.csv:450003: passed over, the rows below go on"));
+  const RawTable bad = read("7,stuck,1.5\n8,,\n");
+  REQUIRE(bad.rows() == 600'002);
+  CHECK(bad.columns[1].bad->row == kAt);
+  CHECK(bad.columns[1].bad->text == "stuck");
+  CHECK(bad.columns[2].bad->row == kAt + 1);
+  CHECK(bad.columns[0].values[kAt + 1] == 8);
+  CHECK(bad.columns[0].values[kAt + 2] == kAt);
+
+  // What is wrong is told of its line, and of the first such line.
+  const auto message = [&](const std::string& odd) { return message_of([&] { read(odd); }); };
+  CHECK(message("1,2,3,4\n1,2,3,4,5\n").find("long.csv:450002: has 4 cells") != std::string::npos);
+  CHECK(message(std::string("1,2,3\0\n", 7)).find("long.csv:450002: holds NUL bytes") !=
+        std::string::npos);
+  const std::string too_long = '"' + std::string(2 << 20, 'x') + "\n";
+  CHECK(message(too_long).find("long.csv:450002: a line of more") != std::string::npos);
+  CHECK(message("1,2,3,4\n1,2,3\n" + too_long).find("long.csv:450002: has 4 cells") !=
+        std::string::npos);
+}
+
 TEST_CASE("lines of up to 1 MiB are read, in UTF-16 as well") {
   const TemporaryFolder folder;
   for (const bool wide : {false, true}) {

@@ -7,8 +7,10 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
+#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/csv_dialect.h"
@@ -149,6 +151,40 @@ std::optional<ClockTime> clock_time(std::string_view text) {
   return out;
 }
 
+/// A line of many, and whether it is plain: a finite number in each column, and nothing else.
+struct LineOfBlock {
+  std::size_t number = 0, begin = 0, size = 0;  ///< in the file; where its text lies
+  bool is_plain = false;
+};
+
+/// Lines that are read together.
+struct Block {
+  std::string text;
+  std::vector<LineOfBlock> lines;
+  std::vector<double> numbers;  ///< of the plain lines, one behind the other
+
+  std::string_view text_of(const LineOfBlock& line) const {
+    return std::string_view(text).substr(line.begin, line.size);
+  }
+};
+
+/// Finds the plain lines of a block, and their numbers.
+void read_numbers(Block& block, const CsvDialect& dialect) {
+  // Zeros show that something was lost: then each line is looked at.
+  const bool is_whole = block.text.find('\0') == std::string::npos;
+  std::vector<std::string_view> cells;
+  for (LineOfBlock& line : block.lines) {
+    split_cells(block.text_of(line), dialect.separator, cells);
+    line.is_plain = is_whole && cells.size() == dialect.names.size();
+    const std::size_t before = block.numbers.size();
+    for (std::size_t k = 0; k < cells.size() && line.is_plain; ++k) {
+      block.numbers.push_back(number_or_nan(cells[k], dialect));
+      line.is_plain = std::isfinite(block.numbers.back());
+    }
+    if (!line.is_plain) block.numbers.resize(before);
+  }
+}
+
 /// Appends rows to a table, one line at a time.
 class RowAppender {
  public:
@@ -207,6 +243,28 @@ class RowAppender {
                              ": passed over, the rows below go on");
   }
 
+  /// The lines of a block whose numbers have been read.
+  void append(const Block& block) {
+    auto numbers = block.numbers.begin();
+    for (const LineOfBlock& line : block.lines) {
+      const auto own = numbers;
+      if (line.is_plain) numbers += static_cast<std::ptrdiff_t>(table_.columns.size());
+      if (line.is_plain && !is_open_ && other_heading_.empty())
+        append_plain(own, line.number);
+      else
+        append(block.text_of(line), line.number);
+    }
+  }
+
+ private:
+  /// A row of which nothing can be said but its numbers.
+  void append_plain(std::vector<double>::const_iterator numbers, std::size_t line) {
+    given_ += table_.columns.size();
+    note_line(line);
+    for (RawColumn& column : table_.columns) column.values.push_back(*numbers++);
+  }
+
+  /// Any row.
   void append(std::string_view text, std::size_t line) {
     if (is_comment(text)) return;
     require_whole(text, line);
@@ -215,12 +273,16 @@ class RowAppender {
     require_cell_count(line);
     if (is_open_) watch_groups(line);
     const std::size_t row = table_.rows();
-    if (line != next_line_) table_.lines.emplace_back(row, line);
-    next_line_ = line + 1;
+    note_line(line);
     for (std::size_t k = 0; k < table_.columns.size(); ++k) append_cell(table_.columns[k], k, row);
   }
 
- private:
+  /// Notes the line of the row that comes next where the numbering jumps.
+  void note_line(std::size_t line) {
+    if (line != next_line_) table_.lines.emplace_back(table_.rows(), line);
+    next_line_ = line + 1;
+  }
+
   /// Whole numbers of three digits in a column, and the first with a sign before three digits.
   struct Groups {
     std::string first;
@@ -359,6 +421,41 @@ class RowAppender {
   std::map<std::size_t, Clock> clocks_;  ///< by column
   bool is_open_;                         ///< no number has told what stands between digits
   std::vector<Groups> groups_;           ///< by column, while that is so
+};
+
+/// Takes lines for a table, and reads their numbers on all cores, a block of them on each.
+class BlockReader {
+ public:
+  BlockReader(RowAppender& appender, const CsvDialect& dialect)
+      : appender_(appender),
+        dialect_(dialect),
+        blocks_(static_cast<std::size_t>(default_threads())) {}
+
+  void add(std::string_view text, std::size_t number) {
+    if (blocks_[filled_].text.size() >= kBlock && ++filled_ == blocks_.size()) finish();
+    Block& block = blocks_[filled_];
+    block.lines.push_back({number, block.text.size(), text.size()});
+    block.text += text;
+  }
+
+  /// Appends all that has been added.
+  void finish() {
+    const std::size_t count = std::min(filled_ + 1, blocks_.size());
+    parallel_for(count, 0, [&](std::size_t k) { read_numbers(blocks_[k], dialect_); });
+    for (Block& block : std::span(blocks_).first(count)) {
+      appender_.append(block);
+      block.text.clear(), block.lines.clear(), block.numbers.clear();
+    }
+    filled_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes: hundreds of microseconds
+
+  RowAppender& appender_;
+  const CsvDialect& dialect_;
+  std::vector<Block> blocks_;
+  std::size_t filled_ = 0;  ///< how many are
 };
 
 /// Lines of which those that a quoted line end has divided are one again.
@@ -502,13 +599,24 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
     refuse_touching(head[k], dialect, table.at_line(numbers[k]));
 
-  // Then one line at a time: those already read, and the rest of the file.
+  // Then block after block: the lines already read, and the rest of the file. Where that cannot be
+  // read on, what is wrong in the lines before it counts first.
   add_empty_columns(table, dialect);
   reserve_rows(table, source);
   RowAppender appender(table, dialect);
+  BlockReader blocks(appender, dialect);
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
-    appender.append(head[k], numbers[k]);
-  while (const auto line = source.next()) appender.append(*line, source.line());
+    blocks.add(head[k], numbers[k]);
+  const auto next_line = [&] {
+    try {
+      return source.next();
+    } catch (const Error&) {
+      blocks.finish();
+      throw;
+    }
+  };
+  while (const auto line = next_line()) blocks.add(*line, source.line());
+  blocks.finish();
   appender.settle_clocks();
   appender.settle_groups();
   appender.note_beside();
