@@ -100,8 +100,9 @@ int run_inspect(const InspectSettings& settings, Console& console) {
 
   // A measured velocity is compared with the derived one: a wrong sign or unit shows there.
   const std::vector<VelocityCheck> checks = check_velocities(dataset, options.velocity_cutoff_hz);
-  const Document document = inspection_document(
-      {dataset, checks, console.command_line(), DASHPOT_VERSION, date_now(), units});
+  const Document document =
+      inspection_document({dataset, checks, console.command_line(), DASHPOT_VERSION, date_now(),
+                           units, !settings.folder.empty()});
 
   print_document(document, console);
 

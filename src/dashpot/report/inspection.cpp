@@ -25,10 +25,9 @@ Channel derived_velocity(const Record& record) {
   if (!velocity || !displacement || velocity->origin.starts_with("derived") ||
       record.sample_time <= 0 || record.size() < 4)
     return {};
-  const double cutoff = choose_cutoff_hz(displacement->samples, record.sample_time);
-  return {"derived_velocity", "m/s",
-          differentiate_zero_phase(displacement->samples, record.sample_time, cutoff),
-          fmt::format("derived from displacement, {:.3g} Hz zero-phase", cutoff)};
+  Derivative derived = smooth_derivative(displacement->samples, record.sample_time);
+  return {"derived_velocity", "m/s", std::move(derived.slope),
+          fmt::format("derived from displacement, {:.3g} Hz zero-phase", derived.cutoff_hz)};
 }
 
 /// A label, and the SI unit behind it.
@@ -297,7 +296,7 @@ Document inspection_document(const InspectionInput& input) {
 
   const auto points = static_cast<std::size_t>(
       kPointsOfPage / static_cast<double>(std::max<std::size_t>(1, dataset.records.size())));
-  if (!dataset.records.empty())
+  if (!dataset.records.empty() && input.has_curves)
     document.sections.push_back(closer_section(dataset, points, document.samples));
 
   document.sections.push_back({.name = "readings",

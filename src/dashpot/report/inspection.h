@@ -16,6 +16,7 @@ struct InspectionInput {
   std::string version;
   std::string date;  ///< ISO 8601
   PrintUnits units = {};
+  bool has_curves = true;  ///< what a page draws: all samples are looked at for it
 };
 
 /// How recordings were understood: every column and record, the channels of each record in time and
