@@ -15,7 +15,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kFewestSamples = 4;
+constexpr std::size_t kFewestToDerive = 4;
 constexpr std::size_t kMany = 100'000;  // samples from which threads pay
 
 /// Central differences in place, one-sided of second order at the ends.
@@ -74,7 +74,7 @@ bool cuts_a_motion(std::span<const double> low, std::span<const double> middle,
 Derivative raised_for_fast_stretches(std::span<const double> x, double dt, double cutoff_hz,
                                      double highest_hz) {
   constexpr double kPeriods = 5;  // of the cut-off in a stretch
-  if (x.size() < kFewestSamples || !(4 * cutoff_hz <= highest_hz)) return {cutoff_hz, {}};
+  if (x.size() < kFewestToDerive || !(4 * cutoff_hz <= highest_hz)) return {cutoff_hz, {}};
   std::array<std::vector<double>, 3> slopes;  // at the cut-off, twice and four times that
   parallel_for(slopes.size(), x.size() < kMany ? 1 : 0, [&](std::size_t k) {
     slopes[k] = differentiate_zero_phase(x, dt, static_cast<double>(1 << k) * cutoff_hz);
@@ -114,9 +114,9 @@ Derivative chosen_by_the_motion(std::span<const double> x, double dt) {
 
 std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
                                              double cutoff_hz) {
-  if (x.size() < kFewestSamples)
+  if (x.size() < kFewestToDerive)
     throw Error("velocity from displacement", "only " + std::to_string(x.size()) + " samples",
-                "at least " + std::to_string(kFewestSamples) + " are needed");
+                "at least " + std::to_string(kFewestToDerive) + " are needed");
   const std::vector<Biquad> lowpass = butterworth_lowpass(2, cutoff_hz, dt);
   // Within two periods of the cut-off the filter forgets its start to exp(-2 pi sqrt(2)) = 1e-4.
   const auto margin = static_cast<std::size_t>(std::ceil(2 / (cutoff_hz * dt)));

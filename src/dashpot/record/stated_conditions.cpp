@@ -17,10 +17,10 @@ struct ConditionUnit {
   std::string_view name, unit;
 };
 /// What columns may be by their names; a longer name before one that begins it.
-constexpr ConditionUnit kConditions[] = {{"gap_area", "m^2"},         {"gap", "m"},
-                                         {"piston_area", "m^2"},      {"pole_length", "m"},
-                                         {"spring_stiffness", "N/m"}, {"temperature", "K"},
-                                         {"viscosity", "Pa*s"},       {"yield_stress", "Pa"}};
+constexpr ConditionUnit kConditionUnits[] = {{"gap_area", "m^2"},         {"gap", "m"},
+                                             {"piston_area", "m^2"},      {"pole_length", "m"},
+                                             {"spring_stiffness", "N/m"}, {"temperature", "K"},
+                                             {"viscosity", "Pa*s"},       {"yield_stress", "Pa"}};
 constexpr std::string_view kDrawings = "damper";
 constexpr double kIceInKelvin = 273.15;
 constexpr std::string_view kBuild = "specimen";  // which build of a drawing: a number
@@ -52,7 +52,7 @@ StatedConditions::StatedConditions(const Manifest& manifest, fs::path folder)
     if (title == kBuild) add_build_column();
 
     // A quantity, by the longest of the names that begin its title; its unit stands behind.
-    for (const ConditionUnit& known : kConditions) {
+    for (const ConditionUnit& known : kConditionUnits) {
       if (!lower(title).starts_with(known.name)) continue;
       const std::string unit = unit_behind(title, known.name);
       const auto parsed = parse_unit(unit);
@@ -91,8 +91,8 @@ void StatedConditions::add_column(Record& record, const SourcePath& file,
   // What a drawing has too is held to its bounds.
   const auto fields = description_fields();
   const auto drawn = std::ranges::find(fields, column.condition, &DescriptionField::name);
-  const bool is_known = std::ranges::find(kConditions, column.condition, &ConditionUnit::name) !=
-                        std::end(kConditions);
+  const bool is_known = std::ranges::find(kConditionUnits, column.condition,
+                                          &ConditionUnit::name) != std::end(kConditionUnits);
   if (is_known && drawn != fields.end())
     require_within(value, *drawn,
                    manifest_->path() + ", column '" + column.title + "', " + file.relative);
@@ -165,13 +165,13 @@ void StatedConditions::add(Record& record, const SourcePath& file, const FileSta
         text = "done";
       }
     if (text == "done") continue;
-    const auto known = std::ranges::find(kConditions, stated.name, &ConditionUnit::name);
-    if (text.empty() && known != std::end(kConditions))
+    const auto known = std::ranges::find(kConditionUnits, stated.name, &ConditionUnit::name);
+    if (text.empty() && known != std::end(kConditionUnits))
       throw Error(stated.where, "the manifest's column '" + stated.column + "' has no unit",
                   "{manifest: " + stated.column +
                       ", unit: " + std::string(known->unit == "m" ? "mm" : known->unit) + "}");
     const Unit unit = text.empty() ? Unit{} : require_unit(text, stated.where);
-    if (known != std::end(kConditions) && unit.dimension != parse_unit(known->unit)->dimension)
+    if (known != std::end(kConditionUnits) && unit.dimension != parse_unit(known->unit)->dimension)
       throw Error(stated.where, "unit '" + text + "' does not fit " + stated.name,
                   "a unit that converts to " + std::string(known->unit));
     add_column(record, file, {stated.column, stated.name, unit.factor, unit.offset});
