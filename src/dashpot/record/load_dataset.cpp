@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/dataset.h"
 #include "dashpot/error.h"
@@ -239,21 +241,39 @@ class Loader {
       return pass_over(file, "it holds no table of numbers");
     }
 
-    // Of several parts of a file (sheets, groups) those that are no recordings are passed over.
+    // The checksum of a large file is taken beside the rest of the work.
+    constexpr std::uintmax_t kLarge = std::uintmax_t{1} << 24;  // bytes
     const std::size_t parts = tables.size();
     std::vector<PassedOver> refused;
-    for (RawTable& table : tables) {
-      const std::string part = part_text(table, parts);
-      std::string why = load_stretches(
-          file, *statement, usable_stretches(std::move(table), *statement, stated_in_), parts);
-      if (!why.empty()) refused.push_back({part, std::move(why)});
-    }
+    std::string checksum;
+    parallel_for(2, fs::file_size(file.path) < kLarge ? 1 : 0, [&](std::size_t k) {
+      if (k == 0)
+        refused = load_parts(file, *statement, std::move(tables));
+      else
+        checksum = sha256_of_file(file.path);
+    });
+
     const bool used = refused.size() < parts;
     if (!used && !refused.empty() && (file.named || stated))
       throw Error(file.path.string() + refused.front().file, refused.front().why);
     for (const auto& [part, why] : refused)
       dataset_.passed_over.push_back({file.relative + part, why});
-    if (used) dataset_.files.push_back({file.path.string(), sha256_of_file(file.path)});
+    if (used) dataset_.files.push_back({file.path.string(), checksum});
+  }
+
+  /// Of several parts of a file (sheets, groups) those that are no recordings are passed over:
+  /// returns them.
+  std::vector<PassedOver> load_parts(const SourcePath& file, const FileStatement& statement,
+                                     std::vector<RawTable> tables) {
+    const std::size_t parts = tables.size();
+    std::vector<PassedOver> refused;
+    for (RawTable& table : tables) {
+      const std::string part = part_text(table, parts);
+      std::string why = load_stretches(
+          file, statement, usable_stretches(std::move(table), statement, stated_in_), parts);
+      if (!why.empty()) refused.push_back({part, std::move(why)});
+    }
+    return refused;
   }
 
   /// What tells a part of a file from the others, behind the file's name: ", sheet 'notes'".

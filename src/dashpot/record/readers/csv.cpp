@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <exception>
 #include <limits>
 #include <map>
 #include <span>
@@ -163,9 +164,14 @@ struct Block {
   std::vector<LineOfBlock> lines;
   std::vector<double> numbers;  ///< of the plain lines, one behind the other
 
+  void add(std::string_view line, std::size_t number) {
+    lines.push_back({number, text.size(), line.size()});
+    text += line;
+  }
   std::string_view text_of(const LineOfBlock& line) const {
     return std::string_view(text).substr(line.begin, line.size);
   }
+  void clear() { text.clear(), lines.clear(), numbers.clear(); }
 };
 
 /// Finds the plain lines of a block, and their numbers.
@@ -423,39 +429,61 @@ class RowAppender {
   std::vector<Groups> groups_;           ///< by column, while that is so
 };
 
-/// Takes lines for a table, and reads their numbers on all cores, a block of them on each.
+/// Reads the lines of a table block by block: while all cores find the numbers of some, the next
+/// are filled.
 class BlockReader {
  public:
-  BlockReader(RowAppender& appender, const CsvDialect& dialect)
-      : appender_(appender),
+  BlockReader(Lines& source, const CsvDialect& dialect)
+      : source_(source),
         dialect_(dialect),
-        blocks_(static_cast<std::size_t>(default_threads())) {}
+        blocks_(static_cast<std::size_t>(default_threads())),
+        next_(blocks_.size()) {}
 
-  void add(std::string_view text, std::size_t number) {
-    if (blocks_[filled_].text.size() >= kBlock && ++filled_ == blocks_.size()) finish();
-    Block& block = blocks_[filled_];
-    block.lines.push_back({number, block.text.size(), text.size()});
-    block.text += text;
-  }
+  /// A line that the source has given already.
+  void add(std::string_view text, std::size_t number) { next_.front().add(text, number); }
 
-  /// Appends all that has been added.
-  void finish() {
-    const std::size_t count = std::min(filled_ + 1, blocks_.size());
-    parallel_for(count, 0, [&](std::size_t k) { read_numbers(blocks_[k], dialect_); });
-    for (Block& block : std::span(blocks_).first(count)) {
-      appender_.append(block);
-      block.text.clear(), block.lines.clear(), block.numbers.clear();
+  /// Appends those lines and all that are left. Where the source cannot be read on, what is wrong
+  /// in the lines before it counts first.
+  void append_all(RowAppender& appender) {
+    while (!next_.front().lines.empty()) {
+      std::swap(blocks_, next_);
+      const bool is_little = blocks_.front().text.size() < kBlock;
+      parallel_for(blocks_.size() + 1, is_little ? 1 : 0, [&](std::size_t k) {
+        if (k == 0)
+          fill_next();
+        else
+          read_numbers(blocks_[k - 1], dialect_);
+      });
+      for (Block& block : blocks_) {
+        appender.append(block);
+        block.clear();
+      }
     }
-    filled_ = 0;
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
   static constexpr std::size_t kBlock = std::size_t{1} << 18;  // bytes: hundreds of microseconds
 
-  RowAppender& appender_;
+  void fill_next() {
+    try {
+      for (Block& block : next_)
+        while (block.text.size() < kBlock && !has_ended_)
+          if (const auto line = source_.next())
+            block.add(*line, source_.line());
+          else
+            has_ended_ = true;
+    } catch (const Error&) {
+      failure_ = std::current_exception();
+      has_ended_ = true;
+    }
+  }
+
+  Lines& source_;
   const CsvDialect& dialect_;
-  std::vector<Block> blocks_;
-  std::size_t filled_ = 0;  ///< how many are
+  std::vector<Block> blocks_, next_;
+  bool has_ended_ = false;
+  std::exception_ptr failure_;
 };
 
 /// Lines of which those that a quoted line end has divided are one again.
@@ -599,24 +627,14 @@ void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
     refuse_touching(head[k], dialect, table.at_line(numbers[k]));
 
-  // Then block after block: the lines already read, and the rest of the file. Where that cannot be
-  // read on, what is wrong in the lines before it counts first.
+  // Then all lines: those already read, and the rest of the file.
   add_empty_columns(table, dialect);
   reserve_rows(table, source);
   RowAppender appender(table, dialect);
-  BlockReader blocks(appender, dialect);
+  BlockReader blocks(source, dialect);
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
     blocks.add(head[k], numbers[k]);
-  const auto next_line = [&] {
-    try {
-      return source.next();
-    } catch (const Error&) {
-      blocks.finish();
-      throw;
-    }
-  };
-  while (const auto line = next_line()) blocks.add(*line, source.line());
-  blocks.finish();
+  blocks.append_all(appender);
   appender.settle_clocks();
   appender.settle_groups();
   appender.note_beside();
