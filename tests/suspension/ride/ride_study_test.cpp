@@ -155,6 +155,25 @@ TEST_CASE("rides that cannot be are refused") {
         }).find("savaresi_spelta: is not linear but for its damper") == 0);
 }
 
+TEST_CASE("a controller that is named twice rides once") {
+  RideStudyOptions options = small_study();
+  options.frequencies = {20};
+  options.gains = {.settling = 0.5, .counted = 0.5, .chirp = 1};
+  options.road_duration = 0.5;
+  const auto names = [&](const std::vector<std::string>& controllers) {
+    options.controllers = controllers;
+    std::vector<std::string> ridden;
+    for (const RiddenVehicle& one : study_ride(options).controlled) ridden.push_back(one.name());
+    return ridden;
+  };
+  const std::vector<std::string> both = names({"skyhook", "add"});
+  CHECK(both.size() == 2);
+  CHECK(names({"skyhook", "add", "skyhook", "add"}) == both);
+
+  // Another setting makes another controller.
+  CHECK(names({"mix1", "mix1,crossover=3Hz"}).size() == 2);
+}
+
 TEST_CASE("all laws that suit a vehicle are taken, the others named with the reason") {
   RideStudyOptions options = small_study();
   options.controllers = {"all"};

@@ -38,11 +38,16 @@ std::vector<SharedVehicle> make_vehicles(const RideStudyOptions& options,
       if (law->name != "constant") controllers.emplace_back(law->name);
   }
 
-  // Of "all", those that do not suit the vehicle are left out, with the reason.
+  // Each once, however often it is named. Of "all", those that do not suit the vehicle are left
+  // out, with the reason.
   for (const std::string& controller : controllers) {
     words.controller = controller;
     try {
-      vehicles.push_back(shared(words));
+      SharedVehicle vehicle = shared(words);
+      if (std::ranges::none_of(vehicles, [&](const SharedVehicle& one) {
+            return one->controller_name == vehicle->controller_name;
+          }))
+        vehicles.push_back(std::move(vehicle));
     } catch (const Error& error) {
       if (!all) throw;
       left_out.push_back(controller + " is left out: " + error.what());
