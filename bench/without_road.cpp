@@ -233,10 +233,11 @@ class Coverage {
   void add(const FittedParameter& p, double truth) {
     if (p.fixed) return;
     auto one = std::ranges::find(counts_, p.name, &Count::name);
-    if (one == counts_.end()) one = counts_.insert(one, {p.name, 0, 0, 0, 0});
+    if (one == counts_.end()) one = counts_.insert(one, {p.name, 0, 0, 0, 0, 0});
     one->inside += truth >= p.low && truth <= p.high;
     one->of += 1;
     one->error += (p.value - truth) / truth;
+    one->worst = std::max(one->worst, std::abs(p.value / truth - 1));
     one->half += (p.high - p.low) / 2 / std::abs(truth);
   }
   void print() const {
@@ -253,12 +254,17 @@ class Coverage {
     }
     if (of > 0) fmt::print("all: {} of {}, {:.1f} %\n", inside, of, 100.0 * inside / of);
   }
+  /// By how much a number was off at worst, over the truth.
+  double worst(const std::string& name) const {
+    const auto one = std::ranges::find(counts_, name, &Count::name);
+    return one == counts_.end() ? 0 : one->worst;
+  }
 
  private:
   struct Count {
     std::string name;
     int inside, of;
-    double error, half;
+    double error, half, worst;
   };
   std::vector<Count> counts_;
 };
@@ -274,38 +280,73 @@ std::vector<LawUnknowns::Coefficient> true_coefficients(const LawModel& damper,
   return unknowns.coefficients(unknowns.of(damper));
 }
 
+/// Fits of one vehicle, each on drives of another seed.
+struct CoverPlan {
+  InPlantSetup setup, truth;
+  const LawModel& damper;
+  std::string road_class;  ///< on which it truly drives
+  double seconds;
+  std::string law;
+  int repetitions;
+  InPlantOptions options = {};
+};
+
+/// How often their intervals held the plant's and the damper's numbers.
+struct Covered {
+  Coverage plant, damper;
+  double cpu = 0;  ///< s of each
+};
+
+/// Counts those coefficients of the damper for which `counts` holds.
+template <class Counts>
+Covered cover(const CoverPlan& plan, const Counts& counts) {
+  Covered covered;
+  for (int k = 0; k < plan.repetitions; ++k) {
+    const InPlantReport report = identify_in_plant(
+        find_law(plan.law), plan.setup,
+        rides(plan.truth, plan.damper, plan.road_class, plan.seconds / 3, 5000 + 7 * k),
+        plan.options);
+    covered.cpu += report.seconds / plan.repetitions;
+
+    // The plant's numbers, those that are found told on the way.
+    fmt::print(stderr, "{}: {}", k, report.message);
+    for (const FittedParameter& p : report.plant)
+      for (const auto& [name, value] : plan.truth.known)
+        if (p.name == name) {
+          covered.plant.add(p, value);
+          fmt::print(stderr, ", {} {}", name, format_number(p.value, 5));
+        }
+    fmt::print(stderr, "\n");
+    if (plan.repetitions == 1) print_fit(report);
+
+    // The damper's.
+    if (!report.model) continue;
+    for (const auto& c : true_coefficients(plan.damper, report))
+      for (const FittedParameter& p : report.damper)
+        if (p.name == c.name && counts(c)) covered.damper.add(p, c.value);
+  }
+  return covered;
+}
+
 /// cover REPETITIONS TRUTH CLASS SECONDS LAW
 void run_cover(int repetitions, const std::string& truth, const std::string& road_class,
                double seconds, const std::string& law) {
   const std::unique_ptr<LawModel> damper = true_damper(truth);
   const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
-  Coverage plant, own;
-  double worst = 0, cpu = 0;
-  for (int k = 0; k < repetitions; ++k) {
-    InPlantOptions options;
-    options.asymmetric = truth == "asymmetric";
-    const InPlantReport report = identify_in_plant(
-        find_law(law), setup,
-        rides(true_car(setup), *damper, road_class, seconds / 3, 5000 + 7 * k), options);
-    cpu += report.seconds / repetitions;
-    for (const FittedParameter& p : report.plant)
-      plant.add(p, p.name == "sprung_mass" ? kBody : kTyre);
-    worst = std::max(worst, std::abs(found(report, "sprung_mass") / kBody - 1));
-    if (!report.model) continue;
-    for (const auto& c : true_coefficients(*damper, report))
-      for (const FittedParameter& p : report.damper)
-        if (p.name == c.name) own.add(p, c.value);
-    fmt::print(stderr, "{}: {}, body {:.2f}, tyre {:.0f}\n", k, report.message,
-               found(report, "sprung_mass"), found(report, "tyre_stiffness"));
-  }
+  InPlantOptions options;
+  options.asymmetric = truth == "asymmetric";
+  const Covered covered =
+      cover({setup, true_car(setup), *damper, road_class, seconds, law, repetitions, options},
+            [](const auto&) { return true; });
   fmt::print(
       "{} in a car with {}, class {}, {} s, {} repetitions; {:.1f} s of CPU each, body mass "
       "at worst {:.2f} % off\n",
-      law, truth, road_class, seconds, repetitions, cpu, 100 * worst);
-  plant.print();
-  plant.print_share();
-  own.print();
-  own.print_share();
+      law, truth, road_class, seconds, repetitions, covered.cpu,
+      100 * covered.plant.worst("sprung_mass"));
+  covered.plant.print();
+  covered.plant.print_share();
+  covered.damper.print();
+  covered.damper.print_share();
 }
 
 /// The car on a road that is measured with noise, with three numbers to be found.
@@ -332,33 +373,19 @@ void run_covered(int repetitions, const std::string& truth, const std::string& r
   setup.inputs.front().noise = 0;
   setup.skip = 0.2;
 
-  Coverage plant, own;
-  double cpu = 0;
-  for (int k = 0; k < repetitions; ++k) {
-    InPlantOptions options;
-    options.grade = "";
-    const InPlantReport report = identify_in_plant(
-        find_law(law), setup, rides(true_setup, *damper, road_class, seconds / 3, 5000 + 7 * k),
-        options);
-    cpu += report.seconds / repetitions;
-    for (const FittedParameter& p : report.plant)
-      for (const auto& [name, value] : true_setup.known)
-        if (p.name == name) plant.add(p, value);
-    if (!report.model) continue;
-    for (const auto& c : true_coefficients(*damper, report))
-      for (const FittedParameter& p : report.damper)
-        if (p.name == c.name && c.value != 0 && c.name != "V0") own.add(p, c.value);
-    fmt::print(stderr, "{}: {}, body {:.2f}, tyre {:.0f}\n", k, report.message,
-               found(report, "sprung_mass"), found(report, "tyre_stiffness"));
-  }
+  InPlantOptions options;
+  options.grade = "";
+  const Covered covered =
+      cover({setup, true_setup, *damper, road_class, seconds, law, repetitions, options},
+            [](const LawUnknowns::Coefficient& c) { return c.value != 0 && c.name != "V0"; });
   fmt::print(
       "{} in a car with {}, class {} measured with {} mm of noise, {} s, {} repetitions; {:.1f} s "
       "of CPU each\n",
-      law, truth, road_class, millimetres, seconds, repetitions, cpu);
-  plant.print();
-  plant.print_share();
-  own.print();
-  own.print_share();
+      law, truth, road_class, millimetres, seconds, repetitions, covered.cpu);
+  covered.plant.print();
+  covered.plant.print_share();
+  covered.damper.print();
+  covered.damper.print_share();
 }
 
 /// sensors TRUTH CLASS SECONDS LAW: which of them suffice.
@@ -481,27 +508,15 @@ void run_half(int repetitions, const std::string& truth, const std::string& road
   InPlantSetup true_setup = setup;
   true_setup.unknown.clear();
   true_setup.known.insert(true_setup.known.end(), kHalfCar.begin(), kHalfCar.end());
-  Coverage plant;
   InPlantOptions options;
   options.asymmetric = truth == "asymmetric";
-  double cpu = 0;
-  for (int k = 0; k < repetitions; ++k) {
-    const InPlantReport report = identify_in_plant(
-        find_law(law), setup, rides(true_setup, *damper, true_class, seconds / 3, 5000 + 7 * k),
-        options);
-    cpu += report.seconds / repetitions;
-    for (const FittedParameter& p : report.plant)
-      for (const auto& [name, value] : kHalfCar)
-        if (p.name == name) plant.add(p, value);
-    if (repetitions == 1) print_fit(report);
-    fmt::print(stderr, "{}: {}, body {:.1f}, tyres {:.0f} and {:.0f}\n", k, report.message,
-               found(report, "mass"), found(report, "front_tyre_stiffness"),
-               found(report, "rear_tyre_stiffness"));
-  }
+  const Covered covered =
+      cover({setup, true_setup, *damper, true_class, seconds, law, repetitions, options},
+            [](const auto&) { return false; });
   fmt::print("{} in a half car with {}, class {}, {} s, {} repetitions; {:.1f} s of CPU each\n",
-             law, truth, road_class, seconds, repetitions, cpu);
-  plant.print();
-  plant.print_share();
+             law, truth, road_class, seconds, repetitions, covered.cpu);
+  covered.plant.print();
+  covered.plant.print_share();
 }
 
 }  // namespace
