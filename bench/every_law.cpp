@@ -11,6 +11,7 @@
 #include <span>
 
 #include "dashpot/damper/law_list.h"
+#include "dashpot/numerics/median.h"
 #include "peers/arkode_ride.h"
 #include "peers/law_ride.h"
 #include "peers/odeint_ride.h"
@@ -136,11 +137,6 @@ struct Point {
 };
 using Curve = std::vector<Point>;
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 /// The least time at which a program reaches an error: of its points that do, and, on a straight
 /// line of the logarithms, between one that does not and the next tighter one that does.
 double seconds_at(const Curve& curve, double error) {
@@ -206,10 +202,10 @@ Row measure(const std::string& name, std::span<const Peer> peers, int rounds) {
         theirs[p][k].push_back(with(peers[p].run, row.peers[p][k].relative, &kept));
       }
   }
-  for (std::size_t k = 0; k < own.size(); ++k) row.own[k].seconds = median(own[k]);
+  for (std::size_t k = 0; k < own.size(); ++k) row.own[k].seconds = dashpot::median(own[k]);
   for (std::size_t p = 0; p < theirs.size(); ++p)
     for (std::size_t k = 0; k < theirs[p].size(); ++k)
-      row.peers[p][k].seconds = median(theirs[p][k]);
+      row.peers[p][k].seconds = dashpot::median(theirs[p][k]);
   return row;
 }
 

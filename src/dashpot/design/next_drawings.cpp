@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
@@ -12,6 +13,7 @@
 #include "dashpot/error.h"
 #include "dashpot/numerics/latin_hypercube.h"
 #include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/numerics/median.h"
 
 namespace dashpot {
 namespace {
@@ -374,8 +376,7 @@ NextReport next_drawings(const DesignRequest& request, const FamilyModel& family
     for (const std::size_t c : taken) some.push_back(told_by_chance[c]);
     draws.push_back(band_with(choice, physics.information, some));
   }
-  std::ranges::nth_element(draws, draws.begin() + kDraws / 2);
-  report.random = draws[kDraws / 2];
+  report.random = median(std::move(draws));
   return report;
 }
 

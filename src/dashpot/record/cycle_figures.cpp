@@ -10,6 +10,7 @@
 
 #include "dashpot/error.h"
 #include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/numerics/median.h"
 #include "dashpot/record/integrate.h"
 
 namespace dashpot {
@@ -29,13 +30,6 @@ constexpr double kLeastTemperatureSpan = 2;  // K
 
 double mean(std::span<const double> samples) {
   return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 /// Slope and value at u = 0 of the least-squares line.

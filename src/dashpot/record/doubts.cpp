@@ -8,6 +8,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/numerics/median.h"
 #include "dashpot/record/side_passes.h"
 #include "dashpot/record/time_base.h"
 #include "dashpot/record/unit_doubts.h"
@@ -124,10 +125,7 @@ std::optional<std::string> stuck_displacement(const Record& record, const Sample
 bool is_smooth(const Samples& values) {
   constexpr double kShare = 0.05;  // of the span, in the median
   const auto [low, high] = std::ranges::minmax(values);
-  Samples steps = steps_of(values);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle < kShare * (high - low);
+  return median(steps_of(values)) < kShare * (high - low);
 }
 
 /// A displacement that stands still while force or a measured velocity go to and fro.

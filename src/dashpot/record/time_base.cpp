@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/median.h"
 
 namespace dashpot {
 namespace {
@@ -181,9 +183,7 @@ void require_increasing(std::span<const double> stamps, const RawTable& table) {
 double usual_step(std::span<const double> stamps) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < stamps.size(); ++k) steps.push_back(stamps[k] - stamps[k - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle;
+  return median(std::move(steps));
 }
 
 LostSamples lost_samples(std::span<const double> stamps) {

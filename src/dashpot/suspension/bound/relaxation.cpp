@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
 
+#include "dashpot/numerics/median.h"
 #include "dashpot/numerics/minimise.h"
 #include "dashpot/suspension/bound/limited_cost.h"
 
@@ -489,9 +491,7 @@ void tame(LimitCourse& course, double factor) {
   for (const auto measure : {&ForceLimit::ff, &ForceLimit::one}) {
     std::vector<double> sizes;
     for (const ForceLimit& limit : course.limits) sizes.push_back(std::abs(limit.*measure));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const double greatest = factor * *middle;
+    const double greatest = factor * median(std::move(sizes));
     for (std::size_t k = 0; k < shares.size(); ++k)
       if (const double size = std::abs(course.limits[k].*measure); size > greatest)
         shares[k] = std::min(shares[k], greatest / size);
