@@ -2,8 +2,6 @@
 
 #include "commands.h"
 #include "console.h"
-#include "dashpot/base/text.h"
-#include "dashpot/report/words.h"
 #include "identify_in_plant.h"
 #include "ranking_run.h"
 #include "ride_rank_options.h"
@@ -74,9 +72,7 @@ int run_identify(const IdentifySettings& asked, Console& console) {
           ? rank(models.names, data.dataset, data.leave_out, options, store.get())
           : rank_without_inertia(models.names, data.dataset, data.leave_out, options, store.get());
   if (further) validate(ranking, *further, options);
-  if (ranking.kept_fits > 0)
-    console.note(counted(ranking.kept_fits, "fit") +
-                 " kept from before; with --fresh they are made again");
+  tell_kept(ranking.kept_fits, console);
 
   ranking.budget = models.budget;
   ride_models(ranking, data.dataset, ride, console);
@@ -102,7 +98,8 @@ Command identify_command() {
           "Fits each model to all training records together and judges it in free run (motion "
           "and current in, force out) on records that it has not seen. Ranks the models by "
           "that error, saves each as a file and writes a report. Finished fits are kept in "
-          "DIR/fits.sqlite: the same command goes on where it was interrupted.",
+          "DIR/fits.sqlite, those inside a plant in DIR/plant-fits.sqlite: the same command goes "
+          "on where it was interrupted.",
       .options = ranking_options(settings->ranking),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <span>
 #include <tuple>
 
@@ -13,6 +14,7 @@
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/model_in_plant.h"
+#include "dashpot/machine/plant_fit_store.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "document_text.h"
 #include "plant_advice_section.h"
@@ -78,7 +80,6 @@ std::vector<IdleOptions> idle_in_plant(const std::vector<Option>& ride) {
           {{"--dataset", "--no-recognise"}, "", "the plant says which channel is which"},
           {{"--figures"}, "", "the page has its figures"},
           {{"--pdf"}, "", "print the page, report.html, from a browser"},
-          {{"--fresh"}, "", "leave it out: every fit is made anew"},
           {{"--units"}, "", "leave it out: results are in SI"},
           {{"--allow-active"}, "", "leave it out: models are kept as they fit best"},
           {{"--traces", "--covariance", "--validate", "--from", "--force-offset",
@@ -356,6 +357,16 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
   return document;
 }
 
+/// Where finished fits are kept, beside the results, so that an interrupted run goes on; nothing
+/// with --fresh.
+std::unique_ptr<PlantFitStore> plant_fit_store(const RankingSettings& settings, Console& console) {
+  if (settings.fresh) return nullptr;
+  const fs::path file = fs::path(settings.results.folder) / "plant-fits.sqlite";
+  auto store = std::make_unique<PlantFitStore>(file, program_id());
+  tell_dropped(store->dropped(), file, console);
+  return store;
+}
+
 /// The damper as a file that every other command reads.
 void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
                  const std::vector<std::string>& paths, double sample_time, const fs::path& folder,
@@ -422,6 +433,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
     recordings.push_back(read_plant_recording(file, setup.channels()));
   if (const std::string note = without_units(recordings); !note.empty()) console.note(note);
   prepare_results(settings.results);
+  const std::unique_ptr<PlantFitStore> store = plant_fit_store(settings, console);
 
   // Each model in turn, the best first.
   InPlantOptions options{
@@ -434,7 +446,8 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
       .profiles = asked.profiles,
       .monitor = fit.monitor};
   options.starts = std::max(options.starts, fit.starts);
-  std::vector<InPlantFit> fits = identify_in_plant(wanted, setup, recordings, options);
+  std::vector<InPlantFit> fits = identify_in_plant(wanted, setup, recordings, options, store.get());
+  tell_kept(static_cast<std::size_t>(std::ranges::count_if(fits, &InPlantFit::was_kept)), console);
   std::ranges::stable_sort(fits, {}, place_of);
 
   // What came out of it; of laws that nobody asked for, what speaks against the best.

@@ -72,6 +72,11 @@ void tell_dropped(std::size_t count, const fs::path& file, Console& console) {
       "; is the disk sound?");
 }
 
+void tell_kept(std::size_t count, Console& console) {
+  if (count > 0)
+    console.note(counted(count, "fit") + " kept from before; with --fresh they are made again");
+}
+
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const std::string& units,
                          const Console& console) {
   return {.dataset = dataset,

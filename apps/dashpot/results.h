@@ -64,6 +64,8 @@ std::unique_ptr<FitStore> kept_fits(const std::filesystem::path& folder, Console
 
 /// Says, where there are any, that kept results were damaged and are made again.
 void tell_dropped(std::size_t count, const std::filesystem::path& file, Console& console);
+/// Says, where there are any, that finished fits were found and not made again.
+void tell_kept(std::size_t count, Console& console);
 
 /// Input of a report, with the command line, today as its date, and the stated units.
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const std::string& units,

@@ -59,6 +59,15 @@ TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a m
   REQUIRE(model.provenance.files.size() == 1);
   CHECK(contains(model.provenance.files[0].path, "pushed.csv"));
   CHECK_CLOSE(model.model->force({0, 1, 0}, {}), 34, 0.2, 0);
+
+  // Once more it takes what it has, for one law and for both.
+  const ProgramResult one =
+      run_dashpot("identify " + folder.path().string() +
+                  " --in oscillator,mass=unknown,stiffness=5N/mm,force=push,displacement=x "
+                  "--models viscous_dahl --output " +
+                  results);
+  CHECK(contains(one.output, "1 fit kept from before; with --fresh"));
+  CHECK(stdout_of_dashpot(command + " --json").output == result.output);
 }
 
 TEST_CASE("identify --in: what speaks against a result stands in its files too" *

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "dashpot/base/parallel.h"
@@ -19,6 +20,7 @@
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/observe.h"
+#include "dashpot/machine/plant_fit_store.h"
 #include "dashpot/machine/plant_residuals.h"
 
 namespace dashpot {
@@ -293,21 +295,40 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
 std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models,
                                           const InPlantSetup& setup,
                                           const std::vector<PlantRecording>& recordings,
-                                          const InPlantOptions& options) {
+                                          const InPlantOptions& options, PlantFitStore* store) {
   require_setup(setup);
-  std::vector<InPlantFit> fits;
-  const auto fit_law = [&](const std::string& law, bool was_asked_for) {
-    const InPlantOptions own = told_of(law, fits.size(), models.size(), options);
-    fits.push_back({law, identify_in_plant(find_law(law), setup, recordings, own), was_asked_for});
-    fits.back().report.noise = found_noise(setup, fits.back().report);
-  };
   for (const std::string& model : models) require_model_for_plant(model, setup, "models");
+  std::vector<InPlantFit> fits;
+
+  // A fit that was kept, or a new one.
+  const auto add_fit = [&](const std::string& model, const std::string& along, auto&& make) {
+    const PlantFitStore::Request request{model, along, setup, recordings, options};
+    InPlantFit fit{.model = model, .report = {}};
+    if (std::optional<InPlantReport> kept = store ? store->load(request) : std::nullopt) {
+      fit.report = std::move(*kept);
+      fit.was_kept = true;
+    } else {
+      fit.report = make(told_of(model, fits.size(), models.size(), options));
+      if (store) store->save(request, fit.report);
+    }
+    fits.push_back(std::move(fit));
+  };
+  const auto fit_law = [&](const std::string& law) {
+    add_fit(law, "", [&](const InPlantOptions& own) {
+      InPlantReport report = identify_in_plant(find_law(law), setup, recordings, own);
+      report.noise = found_noise(setup, report);
+      return report;
+    });
+  };
 
   // Laws first, one at least.
   for (const std::string& model : models)
-    if (is_law(model)) fit_law(model, true);
+    if (is_law(model)) fit_law(model);
   if (fits.size() == models.size()) return fits;
-  if (fits.empty()) fit_law(kLawBeforeModels, false);
+  if (fits.empty()) {
+    fit_law(kLawBeforeModels);
+    fits.back().was_asked_for = false;
+  }
 
   // The others along the best of them, by the time that was fitted.
   const InPlantSetup weighed = with_noise_found(setup, fits.front().report);
@@ -318,12 +339,12 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   const InPlantFit law = *std::ranges::min_element(fits, {}, left_by);
   for (const std::string& model : models) {
     if (is_law(model)) continue;
-    fits.push_back({model, {}});
-    if (law.report.model)
-      fits.back().report = identify_along(model, law, setup, recordings,
-                                          told_of(model, fits.size() - 1, models.size(), options));
-    else
-      fits.back().report.message = "no law could be fitted before it: " + law.report.message;
+    add_fit(model, law.model, [&](const InPlantOptions& own) {
+      if (law.report.model) return identify_along(model, law, setup, recordings, own);
+      InPlantReport none;
+      none.message = "no law could be fitted before it: " + law.report.message;
+      return none;
+    });
   }
   return fits;
 }

@@ -21,11 +21,14 @@ inline constexpr const char* kLawBeforeModels = "tanh_kwok";
 /// their own and without.
 std::vector<std::string> usual_in_plant();
 
+class PlantFitStore;
+
 /// A model that was identified in a plant.
 struct InPlantFit {
   std::string model;
   InPlantReport report;
   bool was_asked_for = true;  ///< else it is the law along which others learnt
+  bool was_kept = false;      ///< found in the store of finished fits
 };
 
 /// Throws Error(where, ...) at a name that no model has, at a model of many dampers, and at one
@@ -34,11 +37,13 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
                              const std::string& where);
 
 /// Identifies each of these models as the damper of this plant: laws first, then the others along
-/// the law that leaves least of the time that was fitted. Throws Error, before long work, where
+/// the law that leaves least of the time that was fitted. Fits that the store has are taken from
+/// it, and new ones are kept there as soon as they are done. Throws Error, before long work, where
 /// these recordings cannot serve. Not converging is a status.
 std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models,
                                           const InPlantSetup& setup,
                                           const std::vector<PlantRecording>& recordings,
-                                          const InPlantOptions& options);
+                                          const InPlantOptions& options,
+                                          PlantFitStore* store = nullptr);
 
 }  // namespace dashpot
