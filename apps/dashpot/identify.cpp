@@ -98,8 +98,7 @@ Command identify_command() {
           "Fits each model to all training records together and judges it in free run (motion "
           "and current in, force out) on records that it has not seen. Ranks the models by "
           "that error, saves each as a file and writes a report. Finished fits are kept in "
-          "DIR/fits.sqlite, those inside a plant in DIR/plant-fits.sqlite: the same command goes "
-          "on where it was interrupted.",
+          "DIR: the same command goes on where it was interrupted.",
       .options = ranking_options(settings->ranking),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};

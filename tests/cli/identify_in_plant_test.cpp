@@ -133,7 +133,7 @@ TEST_CASE("identify --in: what cannot be used is said before the work" *
                  "--leave-out: has no effect with --in; 'held_back'"));
   CHECK(contains(output(plant + " --models dahl --asymmetric"), "--asymmetric: has no meaning"));
   for (const char* option : {"--force-offset none", "--velocity-cutoff 10", "--keep-inertia",
-                             "--pdf", "--fresh", "--plant savaresi_spelta"})
+                             "--pdf", "--plant savaresi_spelta"})
     CHECK(contains(output(plant + " --models dahl " + option), "has no effect with --in"));
   CHECK(contains(output(plant + " --models dahl"), "leaves 2 samples to fit"));
   CHECK(contains(output("--in oscillator,mass=2,force=psh,displacement=x --models dahl"),
