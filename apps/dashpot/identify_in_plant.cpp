@@ -14,6 +14,7 @@
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/model_in_plant.h"
+#include "dashpot/machine/moving_parts.h"
 #include "dashpot/machine/plant_fit_store.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "document_text.h"
@@ -305,9 +306,10 @@ std::string verdict_of(const InPlantFit& best, const InPlantSetup& setup) {
          " % of the worst sensor's rms is left on the time held back, in free run.";
 }
 
-/// doubted: those whose warnings are told; JSON has them all.
+/// doubted: those whose warnings are told; JSON has them all. left_out: a sentence, or empty.
 Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const InPlantFit> doubted,
-                           const InPlantSetup& setup, const Console& console) {
+                           const std::string& left_out, const InPlantSetup& setup,
+                           const Console& console) {
   const InPlantFit& best = fits.front();
   Document document{.title = "A damper identified in its plant",
                     .subtitle = std::string(setup.model->title),
@@ -349,6 +351,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
     add_advice(best.report.advice, section);
     section.figures.insert(section.figures.begin(), sensor_figure(best.report, setup));
     section.remarks = knowable_lines(best.report);
+    if (!left_out.empty()) section.remarks.push_back(left_out);
     document.sections.push_back(std::move(section));
   }
   Value list = Value::array();
@@ -432,6 +435,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   for (const std::string& file : files)
     recordings.push_back(read_plant_recording(file, setup.channels()));
   if (const std::string note = without_units(recordings); !note.empty()) console.note(note);
+  const std::string left_out = still_ends(setup, recordings);
   prepare_results(settings.results);
   const std::unique_ptr<PlantFitStore> store = plant_fit_store(settings, console);
 
@@ -452,7 +456,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
 
   // What came out of it; of laws that nobody asked for, what speaks against the best.
   const auto doubted = std::span(fits).first(names_none(settings.fit.models) ? 1 : fits.size());
-  const Document document = in_plant_document(fits, doubted, setup, console);
+  const Document document = in_plant_document(fits, doubted, left_out, setup, console);
   print_document(document, console);
   for (const InPlantFit& one : doubted)
     for (const std::string& warning : one.report.warnings) console.warn(one.model + ": " + warning);

@@ -14,6 +14,7 @@
 #include "dashpot/machine/beside_noise.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_report.h"
+#include "dashpot/machine/moving_parts.h"
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
@@ -25,6 +26,9 @@
 
 namespace dashpot {
 namespace {
+
+/// Samples over which starts are compared, one after the other.
+constexpr std::array<std::size_t, 3> kHorizons{250, 700, 2500};
 
 LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations,
                                    double tolerance) {
@@ -64,8 +68,7 @@ std::optional<Candidate> bench_candidate(const Law& law, const InPlantSetup& set
   InPlantOptions alike = options;
   alike.asymmetric = false;
   std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
-  constexpr std::size_t kEnough = 2500;  // samples, as the longest of the starts' horizons
-  for (PlantRecording& one : fitted) one = part_of(one, 0, std::min(one.samples, kEnough));
+  for (PlantRecording& one : fitted) one = part_of(one, 0, std::min(one.samples, kHorizons.back()));
   std::vector<Record> records;
   std::shared_ptr<const DamperModel> found;
   try {
@@ -191,7 +194,6 @@ void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>&
 Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
                      const PlantStart& start, const std::optional<Candidate>& from_bench,
                      const InPlantOptions& options) {
-  constexpr std::array<std::size_t, 3> kHorizons{250, 700, 2500};
   const Trial in{setup, cases, start, options};
   std::vector<Candidate> left = candidates(law, setup, cases, start, from_bench, options);
   double done = 0;
@@ -273,6 +275,30 @@ Candidate start_of_law(const Law& law, const InPlantSetup& setup,
     cases = under_straight_force(setup, recordings, options);
     best = best_start(law, setup, cases, start, from_bench, options);
   }
+  return best;
+}
+
+/// The same where a recording begins quietly: found where all move as they do on the whole, since a
+/// damper that hardly bends tells little, and brought to their beginnings.
+Candidate start_in_motion(const Law& law, const InPlantSetup& setup,
+                          const std::vector<PlantRecording>& recordings, PlantCases& cases,
+                          const PlantStart& start, const InPlantOptions& options) {
+  const std::vector<PlantRecording> lively = lively_parts(setup, recordings, kHorizons.back());
+  if (lively.empty()) return start_of_law(law, setup, recordings, cases, start, options);
+
+  // There, from states of their own.
+  PlantCases shorter = make_cases(setup, lively, options.steps);
+  PlantStart there = start;
+  there.states = plant_start(setup, lively, shorter, options).states;
+  Candidate best = start_of_law(law, setup, lively, shorter, there, options);
+  cases = make_cases(setup, recordings, shorter.steps, shorter.method);
+
+  // All but the states stays.
+  const PlantResiduals residuals(setup, cases, best.unknowns, start.plant, start.scale);
+  std::vector<double> x = residuals.start(start.plant, start.states);
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (k < residuals.first_state() || k >= residuals.first_delay()) x[k] = best.x[k];
+  best.x = std::move(x);
   return best;
 }
 
@@ -410,7 +436,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
 
   require_profiles(law, setup, start.scale, options);
 
-  const Candidate best = start_of_law(law, setup, recordings, cases, start, options);
+  const Candidate best = start_in_motion(law, setup, recordings, cases, start, options);
   const LawUnknowns& unknowns = best.unknowns;
   const std::vector<double>& x = best.x;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);

@@ -19,6 +19,7 @@
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/moving_parts.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_fit_store.h"
 #include "dashpot/machine/plant_residuals.h"
@@ -294,10 +295,11 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
 
 std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models,
                                           const InPlantSetup& setup,
-                                          const std::vector<PlantRecording>& recordings,
+                                          const std::vector<PlantRecording>& as_recorded,
                                           const InPlantOptions& options, PlantFitStore* store) {
   require_setup(setup);
   for (const std::string& model : models) require_model_for_plant(model, setup, "models");
+  const std::vector<PlantRecording> recordings = moving_parts(setup, as_recorded);
   std::vector<InPlantFit> fits;
 
   // A fit that was kept, or a new one.

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_recording.h"
+
+namespace dashpot {
+
+// A recording often begins before the plant moves, and goes on after it has stopped: the car
+// stands, the shaker waits. Such ends tell nothing of plant and damper but fill the time over which
+// starts are tried, and the time that is held back. Or it begins on a smooth road, where a damper
+// hardly bends.
+
+/// Each recording without the ends at which every input and sensor stays at its level, but for a
+/// tenth of a second or so; ends of less than 500 samples stay.
+std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings);
+
+/// What moving_parts() leaves out, in a sentence; empty: nothing.
+std::string still_ends(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings);
+
+/// For recordings of which one moves less than half as much over its first `horizon` samples as on
+/// the whole: from where each moves as much up to the end of what is fitted, which is also where
+/// their own fitted part ends. Empty where none is so, and where all begin at rest.
+std::vector<PlantRecording> lively_parts(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings,
+                                         std::size_t horizon);
+
+}  // namespace dashpot
