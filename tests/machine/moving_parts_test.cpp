@@ -65,17 +65,34 @@ TEST_CASE("in plant: the ends at which a plant stands still are left out, and sa
   CHECK(part.samples > 2000);
   CHECK(part.samples < 2000 + 2 * 150 + 200);
   CHECK(part.channels[1].samples.size() == part.samples);
-  CHECK(contains(still_ends(setup, whole),
-                 "Left out is where the plant stands still: pushed (its "
-                 "first 3.8 s and its last 3."));
-  CHECK(still_ends(setup, {part}).empty());
+  CHECK(contains(still_parts(setup, whole),
+                 "Left out is where the plant stands still: pushed (0 to 3.8 s, 8."));
+  CHECK(still_parts(setup, {part}).empty());
   CHECK(moving_parts(setup, {part}).front().samples == part.samples);
 
   // Less than a second is kept as it is, and so is a pause between.
   const auto pauses = [](double t) { return t < 0.9 || (t > 2 && t < 4) ? 0.0 : 1.0; };
   const std::vector<PlantRecording> paused{pushed_by(pauses, 6)};
-  CHECK(still_ends(setup, paused).empty());
+  CHECK(still_parts(setup, paused).empty());
   CHECK(moving_parts(setup, paused).front().samples == paused.front().samples);
+}
+
+TEST_CASE("in plant: where nothing measures the road, a recording falls apart at its pauses") {
+  InPlantSetup setup = moved_setup();
+  setup.inputs = {{"", {PlantInput::Ground, 0}, 0, RoadPrior{}}};
+  const auto pauses = [](double t) { return t > 3 && t < 6 ? 0.0 : 1.0; };
+  const std::vector<PlantRecording> whole{pushed_by(pauses, 12)};
+  const std::vector<PlantRecording> parts = moving_parts(setup, whole);
+  REQUIRE(parts.size() == 2);
+  CHECK(contains(parts[0].name, "pushed, 0 to 3."));
+  CHECK(contains(parts[1].name, "pushed, 5.8 to 12 s"));
+  CHECK(parts[1].channel("x").samples.front() == whole[0].channel("x").samples[2900]);
+  CHECK(contains(still_parts(setup, whole), "pushed (3."));
+  CHECK(moving_parts(setup, parts).size() == 2);
+
+  // What is too short between two of them is not fitted.
+  const auto hurries = [](double t) { return (t > 3 && t < 6) || (t > 7 && t < 9) ? 0.0 : 1.0; };
+  CHECK(moving_parts(setup, {pushed_by(hurries, 12)}).size() == 2);
 }
 
 TEST_CASE("in plant: where a recording begins quietly, starts are looked for where it moves") {

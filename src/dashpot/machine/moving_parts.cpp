@@ -11,9 +11,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kBlock = 50;        // samples that are looked at together
-constexpr std::size_t kBlocksKept = 2;    // of a still end, before the plant moves
-constexpr std::size_t kFewestBlocks = 8;  // that are worth leaving out
+constexpr std::size_t kBlock = 50;  // samples that are looked at together
 
 /// The range of a signal without its thousandth part at either end, which may be spikes.
 double usual_range(std::vector<double> samples) {
@@ -27,20 +25,16 @@ double usual_range(std::vector<double> samples) {
   return at(samples.size() - 1 - spikes) - low;
 }
 
-/// Blocks from the first sample on in which a signal stays at the level of the first of them.
-template <class Samples>
-std::size_t still_blocks(const Samples& samples, std::size_t count, double range) {
+/// Blocks from the beginning of a signal on in which it stays at the level of the first of them.
+std::size_t still_blocks(std::span<const double> samples, double range) {
   constexpr double kStill = 0.04;  // of the range, rms; a random motion's own is a sixth of it
   double level = 0;
-  for (std::size_t k = 0; k < kBlock; ++k)
-    level += samples[static_cast<std::ptrdiff_t>(k)] / kBlock;
+  for (const double sample : samples.first(kBlock)) level += sample / kBlock;
   std::size_t block = 0;
-  for (; (block + 1) * kBlock <= count; ++block) {
+  for (; (block + 1) * kBlock <= samples.size(); ++block) {
     double squares = 0;
-    for (std::size_t k = block * kBlock; k < (block + 1) * kBlock; ++k) {
-      const double off = samples[static_cast<std::ptrdiff_t>(k)] - level;
-      squares += off * off / kBlock;
-    }
+    for (const double sample : samples.subspan(block * kBlock, kBlock))
+      squares += (sample - level) * (sample - level) / kBlock;
     if (std::sqrt(squares) > kStill * range) break;
   }
   return block;
@@ -55,28 +49,62 @@ std::vector<std::string> channels_in_motion(const InPlantSetup& setup) {
   return names;
 }
 
-/// Samples that are left out at the beginning and at the end of a recording.
-struct StillEnds {
-  std::size_t first = 0, last = 0;
+/// Samples from `first` up to `end`.
+struct Stretch {
+  std::size_t first = 0, end = 0;
 };
 
-StillEnds ends_of(const InPlantSetup& setup, const PlantRecording& recording) {
-  if (recording.samples < 2 * kBlock) return {};
-
-  // As long as none of them moves.
-  std::size_t first = recording.samples / kBlock, last = first;
+/// Where for some time all channels stay at their level, in order.
+std::vector<Stretch> still_stretches(const InPlantSetup& setup, const PlantRecording& recording) {
+  constexpr std::size_t kFewest = 10;  // blocks
+  std::vector<std::pair<std::span<const double>, double>> signals;
   for (const std::string& name : channels_in_motion(setup)) {
     const std::vector<double>& samples = recording.channel(name).samples;
-    const double range = usual_range(samples);
-    if (!(range > 0)) continue;
-    first = std::min(first, still_blocks(samples.begin(), samples.size(), range));
-    last = std::min(last, still_blocks(samples.rbegin(), samples.size(), range));
+    if (const double range = usual_range(samples); range > 0) signals.emplace_back(samples, range);
   }
-  const auto left_out = [](std::size_t blocks) {
-    return blocks >= kBlocksKept + kFewestBlocks ? (blocks - kBlocksKept) * kBlock : 0;
-  };
-  const StillEnds ends{left_out(first), left_out(last)};
-  return ends.first + ends.last < recording.samples ? ends : StillEnds{};
+
+  std::vector<Stretch> stretches;
+  const std::size_t blocks = recording.samples / kBlock;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    std::size_t still = blocks - block;
+    for (const auto& [samples, range] : signals)
+      still = std::min(still, still_blocks(samples.subspan(block * kBlock), range));
+    if (still < kFewest) continue;
+    stretches.push_back({block * kBlock, (block + still) * kBlock});
+    block += still;
+  }
+  return stretches;
+}
+
+/// The stretches that are left out: at either end; where nothing measures the road, which is taken
+/// as the same all along, those between too.
+std::vector<Stretch> left_out_of(const InPlantSetup& setup, const PlantRecording& recording) {
+  constexpr std::size_t kKept = 2 * kBlock;  // samples beside those that move
+  constexpr double kPause = 1;               // s
+  std::vector<Stretch> left_out;
+  for (auto [first, end] : still_stretches(setup, recording)) {
+    const bool at_start = first == 0, at_end = end + kBlock > recording.samples;
+    const double lasts = recording.sample_time * static_cast<double>(end - first);
+    if (!at_start && !at_end && !(unmeasured_road(setup) && lasts >= kPause)) continue;
+    if (!at_start) first += kKept;
+    end = at_end ? recording.samples : end - kKept;
+    left_out.push_back({first, end});
+  }
+  return left_out;
+}
+
+/// What is left.
+std::vector<Stretch> kept_of(const InPlantSetup& setup, const PlantRecording& recording) {
+  constexpr std::size_t kFewest = 1000;  // samples between two pauses
+  std::vector<Stretch> kept{{0, recording.samples}};
+  for (const auto& [first, end] : left_out_of(setup, recording)) {
+    kept.back().end = first;
+    kept.push_back({end, recording.samples});
+  }
+  std::erase_if(kept, [&](const Stretch& one) {
+    return one.end == one.first || (one.end - one.first < kFewest && kept.size() > 1);
+  });
+  return kept.empty() ? std::vector<Stretch>{{0, recording.samples}} : kept;
 }
 
 double variance_of(std::span<const double> samples) {
@@ -120,8 +148,8 @@ std::size_t lively_from(const InPlantSetup& setup, const PlantRecording& recordi
   return best;
 }
 
-std::string seconds_text(std::size_t samples, double sample_time) {
-  return format_number(static_cast<double>(samples) * sample_time, 3) + " s";
+std::string seconds_at(std::size_t sample, const PlantRecording& recording) {
+  return format_number(static_cast<double>(sample) * recording.sample_time, 3);
 }
 
 }  // namespace
@@ -130,20 +158,23 @@ std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
                                          const std::vector<PlantRecording>& recordings) {
   std::vector<PlantRecording> parts;
   for (const PlantRecording& one : recordings) {
-    const auto [first, last] = ends_of(setup, one);
-    parts.push_back(part_of(one, first, one.samples - last));
+    const std::vector<Stretch> kept = kept_of(setup, one);
+    for (const auto& [first, end] : kept) {
+      parts.push_back(part_of(one, first, end));
+      if (kept.size() > 1)
+        parts.back().name += ", " + seconds_at(first, one) + " to " + seconds_at(end, one) + " s";
+    }
   }
   return parts;
 }
 
-std::string still_ends(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings) {
+std::string still_parts(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings) {
   std::vector<std::string> told;
   for (const PlantRecording& one : recordings) {
-    const auto [first, last] = ends_of(setup, one);
-    std::vector<std::string> ends;
-    if (first > 0) ends.push_back("first " + seconds_text(first, one.sample_time));
-    if (last > 0) ends.push_back("last " + seconds_text(last, one.sample_time));
-    if (!ends.empty()) told.push_back(one.name + " (its " + join(ends, " and its ") + ')');
+    std::vector<std::string> stretches;
+    for (const auto& [first, end] : left_out_of(setup, one))
+      stretches.push_back(seconds_at(first, one) + " to " + seconds_at(end, one) + " s");
+    if (!stretches.empty()) told.push_back(one.name + " (" + join(stretches, ", ") + ')');
   }
   if (told.empty()) return {};
   return "Left out is where the plant stands still: " + join(told, ", ") + '.';

@@ -12,13 +12,15 @@ namespace dashpot {
 // starts are tried, and the time that is held back. Or it begins on a smooth road, where a damper
 // hardly bends.
 
-/// Each recording without the ends at which every input and sensor stays at its level, but for a
-/// tenth of a second or so; ends of less than 500 samples stay.
+/// Each recording without the ends at which every input and sensor stays at its level, of 500
+/// samples or more but for the last hundred. Where nothing measures the road, which is taken as the
+/// same all along, pauses of a second or more are left out as well: their recordings become
+/// several.
 std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
                                          const std::vector<PlantRecording>& recordings);
 
 /// What moving_parts() leaves out, in a sentence; empty: nothing.
-std::string still_ends(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings);
+std::string still_parts(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings);
 
 /// For recordings of which one moves less than half as much over its first `horizon` samples as on
 /// the whole: from where each moves as much up to the end of what is fitted, which is also where
