@@ -419,6 +419,13 @@ void add_road_delays(const InPlantSetup& asked, const InPlantSetup& found, InPla
   }
 }
 
+/// Sensitivities by differences are those of the integrator's leaps where its step is too long.
+void drop_intervals(InPlantReport& report) {
+  for (auto* list : {&report.plant, &report.damper, &report.nuisances})
+    for (FittedParameter& p : *list)
+      if (!p.fixed) p.low = p.high = std::numeric_limits<double>::quiet_NaN();
+}
+
 /// The fit of what is measured, from the best of the starts. No model where the plant diverges.
 InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                               const std::vector<PlantRecording>& recordings,
@@ -467,10 +474,12 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                                 beside, report);
     report.iterations += solved.iterations;
   }
-  if (is_finite() && report.step_error > kStepShare)
-    report.warnings.push_back("the integrator's step changes a sensor by " +
-                              format_number(100 * report.step_error, 2) +
-                              " % of its error: the law is too sharp for it");
+  const bool is_too_sharp = is_finite() && report.step_error > kStepShare;
+  if (is_too_sharp)
+    report.warnings.push_back(
+        "the integrator's step changes a sensor by " + format_number(100 * report.step_error, 2) +
+        " % of its error: the law is too sharp for it, and how certain its numbers are cannot be "
+        "told");
   report.steps = cases.steps;
   report.method = cases.method;
   report.message = solved.message;
@@ -490,6 +499,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   add_parameters(residuals, solved.x, spread, report, reach_of(beside));
   if (!beside.noise.empty()) add_noise(setup, beside.found, report);
   add_warnings(residuals, spread, report);
+  if (is_too_sharp) drop_intervals(report);
   report.advice.profiles =
       profiles_of({setup, cases, unknowns, residuals, solved, start.plant, start.scale}, spread,
                   profiled(report, options), options);
@@ -497,7 +507,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   cases = beside.cases;
 
   // What would help.
-  if (!options.grade.empty()) {
+  if (!options.grade.empty() && !is_too_sharp) {
     if (!beside.noise.empty())
       solved = describe_at(residuals.problem(0, options.threads), solved.x,
                            {.threads = options.threads});
