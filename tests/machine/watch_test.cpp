@@ -256,6 +256,52 @@ TEST_CASE("estimate_day: an input that counts otherwise is told from a damper th
   CHECK_CLOSE(gain_of(0, 0.9), 1 / 0.9, 0.05, 0);
 }
 
+TEST_CASE("estimate_day: a car that stands for a while is no other than one that drives on" *
+          doctest::test_suite("long")) {
+  const InPlantSetup setup = parse_in_plant_setup(
+      "plant: quarter_car\n"
+      "parameters: {sprung_mass: 345 kg, unsprung_mass: 40 kg, spring_stiffness: 17 N/mm, "
+      "tyre_stiffness: 200 kN/m}\n"
+      "inputs: [{kind: ground, class: C, speed: 20 m/s}]\n"
+      "sensors:\n"
+      "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+      "  - {channel: wheel, quantity: acceleration, at: wheel, noise: 0.05}\n"
+      "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n",
+      "car.yaml");
+  WatchedPlant watched{.dampers = {{std::make_shared<LawModel>(load_parameters("spencer1997")),
+                                    {-0.05, 0.05, -1, 1, 0, 0}}},
+                       .setup = setup,
+                       .wears = {&find_wear("force", "test")}};
+  watched.noise = {.force = {{30, 0.02}}, .sensors = {0.05, 0.05, 2e-4}, .roughness = 256e-6};
+  watched.setup.inputs.front().road->roughness = 0;  // found on each day
+
+  // A drive, and the same behind 10 s at which the sensors show their noise alone.
+  const VirtualRide ride = virtual_campaign(setup, *watched.dampers.front().model,
+                                            {.duration = 10,
+                                             .sample_rate = 500,
+                                             .levels = {0},
+                                             .road = "iso8608,class=C,speed=20m/s",
+                                             .seed = 3})
+                               .front();
+  PlantRecording drives{.name = "day",
+                        .sample_time = ride.recorded.sample_time,
+                        .samples = ride.recorded.size(),
+                        .channels = ride.recorded.channels};
+  PlantRecording stands = drives;
+  Random random(8);
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    const auto own = std::ranges::find(stands.channels, setup.sensors[s].channel, &Channel::name);
+    std::vector<double> still;
+    for (int k = 0; k < 5000; ++k)
+      still.push_back(own->samples.front() + setup.sensors[s].noise * random.normal());
+    own->samples.insert(own->samples.begin(), still.begin(), still.end());
+  }
+  stands.samples += 5000;
+  const DayEstimate moved = estimate_day(watched, drives), stood = estimate_day(watched, stands);
+  CHECK_CLOSE(stood.wear[0], moved.wear[0], 0, 0.01);
+  CHECK_CLOSE(stood.excitation, moved.excitation, 0.1, 0);
+}
+
 TEST_CASE("estimate_day: what would pass for a change of the damper is refused") {
   WatchedPlant watched = watched_oscillator({"force"});
   watched.setup.unknown.front().about = 10.0;

@@ -7,6 +7,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/moving_parts.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/ground/road_profile.h"
 
@@ -30,8 +31,10 @@ class DayProblem {
   std::size_t size() const { return size_; }
   /// Amounts of wear, the first of the unknowns.
   std::size_t amounts() const { return watched_->dampers.size() * watched_->wears.size(); }
+  /// Samples that count as one of what is told.
   std::size_t block() const { return block_; }
-  std::size_t settled() const { return settled_; }
+  /// The samples that tell: where the plant moves, behind those in which the filter settles.
+  const std::vector<std::size_t>& telling() const { return telling_; }
   /// Behind the unknowns may stand by how much each measured input is greater than it shows.
   Innovations at(const std::vector<double>& x) const {
     return innovations(observer(x), x.size() == size_ ? samples_ : with_inputs(x));
@@ -64,7 +67,8 @@ class DayProblem {
   std::size_t size_ = 0;       ///< unknowns
   std::vector<double> plant_;  ///< where unknown numbers of the plant start
   bool finds_road_ = false;
-  std::size_t block_ = 1, settled_ = 0;
+  std::size_t block_ = 1;
+  std::vector<std::size_t> telling_;
 };
 
 DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& recording)
@@ -78,8 +82,10 @@ DayProblem::DayProblem(const WatchedPlant& watched, const PlantRecording& record
     finds_road_ |= input.road && input.road->roughness == 0;
   size_ = amounts() + plant_.size() + (finds_road_ ? 1 : 0);
   block_ = std::max<std::size_t>(1, static_cast<std::size_t>(kToldBlock / recording.sample_time));
-  settled_ =
+  const std::size_t settled =
       std::max(static_cast<std::size_t>(kDaySettles / recording.sample_time), samples_.count / 20);
+  for (const auto& [first, end] : moving_stretches(setup, recording))
+    for (std::size_t k = std::max(first, settled); k < end; ++k) telling_.push_back(k);
 
   // Means are no motion: a load or a zero moves them, and `level` tells of it.
   const std::size_t sensors = samples_.sensors;
@@ -140,9 +146,10 @@ ObservedSamples DayProblem::with_inputs(const std::vector<double>& x) const {
 double DayProblem::misfit_of(const Innovations& told) const {
   if (told.beyond.empty()) return INFINITY;
   double sum = 0;
-  for (std::size_t k = settled_ * samples_.sensors; k < told.beyond.size(); ++k)
-    if (told.variance[k] > 0)
-      sum += std::log(told.variance[k]) + told.beyond[k] * told.beyond[k] / told.variance[k];
+  for (const std::size_t sample : telling_)
+    for (std::size_t k = sample * samples_.sensors; k < (sample + 1) * samples_.sensors; ++k)
+      if (told.variance[k] > 0)
+        sum += std::log(told.variance[k]) + told.beyond[k] * told.beyond[k] / told.variance[k];
   return std::isfinite(sum) ? sum : static_cast<double>(INFINITY);
 }
 
@@ -202,10 +209,11 @@ std::optional<Scores> scores_at(const DayProblem& problem, const std::vector<dou
 
   Scores scores{std::vector<double>(n * n), std::vector<double>(n), {}};
   std::vector<double> by(n), by_variance(n);
-  for (std::size_t at = problem.settled() * sensors; at < told.beyond.size(); ++at) {
+  for (std::size_t row = 0; row < problem.telling().size() * sensors; ++row) {
+    const std::size_t at = problem.telling()[row / sensors] * sensors + row % sensors;
     const double variance = told.variance[at], beyond = told.beyond[at];
     if (!(variance > 0)) continue;
-    const std::size_t block = (at / sensors - problem.settled()) / problem.block();
+    const std::size_t block = row / sensors / problem.block();
     if (block >= scores.blocks.size()) scores.blocks.emplace_back(n, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
       by[k] = (beside[k].beyond[at] - beyond) / (lengths[k] * std::sqrt(variance));
@@ -439,9 +447,14 @@ void require_usable(const WatchedPlant& watched, const PlantRecording& recording
                     " ms, the first days every " + format_number(1e3 * watched.sample_time) + " ms",
                 "one rate on all days: at another one the same damper seems another");
   constexpr double kFewest = 3;  // s
-  const double told = recording.sample_time * static_cast<double>(recording.samples) - kDaySettles;
-  if (told < kFewest - kSame)
-    throw Error(recording.name, "is " + format_number(told + kDaySettles) + " s long",
+  double moves = 0;
+  for (const Stretch& one : moving_stretches(watched.setup, recording))
+    moves += recording.sample_time * static_cast<double>(one.length());
+  const double lasts = recording.sample_time * static_cast<double>(recording.samples);
+  if (moves < kDaySettles + kFewest - kSame)
+    throw Error(recording.name,
+                "is " + format_number(lasts) + " s long" +
+                    (moves < lasts ? ", of which the plant moves " + format_number(moves) : ""),
                 "3 s at least behind the first, and tens to tell of a damper");
 }
 

@@ -49,11 +49,6 @@ std::vector<std::string> channels_in_motion(const InPlantSetup& setup) {
   return names;
 }
 
-/// Samples from `first` up to `end`.
-struct Stretch {
-  std::size_t first = 0, end = 0;
-};
-
 /// Where for some time all channels stay at their level, in order.
 std::vector<Stretch> still_stretches(const InPlantSetup& setup, const PlantRecording& recording) {
   constexpr std::size_t kFewest = 10;  // blocks
@@ -91,20 +86,6 @@ std::vector<Stretch> left_out_of(const InPlantSetup& setup, const PlantRecording
     left_out.push_back({first, end});
   }
   return left_out;
-}
-
-/// What is left.
-std::vector<Stretch> kept_of(const InPlantSetup& setup, const PlantRecording& recording) {
-  constexpr std::size_t kFewest = 1000;  // samples between two pauses
-  std::vector<Stretch> kept{{0, recording.samples}};
-  for (const auto& [first, end] : left_out_of(setup, recording)) {
-    kept.back().end = first;
-    kept.push_back({end, recording.samples});
-  }
-  std::erase_if(kept, [&](const Stretch& one) {
-    return one.end == one.first || (one.end - one.first < kFewest && kept.size() > 1);
-  });
-  return kept.empty() ? std::vector<Stretch>{{0, recording.samples}} : kept;
 }
 
 double variance_of(std::span<const double> samples) {
@@ -154,11 +135,24 @@ std::string seconds_at(std::size_t sample, const PlantRecording& recording) {
 
 }  // namespace
 
+std::vector<Stretch> moving_stretches(const InPlantSetup& setup, const PlantRecording& recording) {
+  constexpr std::size_t kFewest = 1000;  // samples between two pauses
+  std::vector<Stretch> kept{{0, recording.samples}};
+  for (const auto& [first, end] : left_out_of(setup, recording)) {
+    kept.back().end = first;
+    kept.push_back({end, recording.samples});
+  }
+  std::erase_if(kept, [&](const Stretch& one) {
+    return one.length() == 0 || (one.length() < kFewest && kept.size() > 1);
+  });
+  return kept.empty() ? std::vector<Stretch>{{0, recording.samples}} : kept;
+}
+
 std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
                                          const std::vector<PlantRecording>& recordings) {
   std::vector<PlantRecording> parts;
   for (const PlantRecording& one : recordings) {
-    const std::vector<Stretch> kept = kept_of(setup, one);
+    const std::vector<Stretch> kept = moving_stretches(setup, one);
     for (const auto& [first, end] : kept) {
       parts.push_back(part_of(one, first, end));
       if (kept.size() > 1)

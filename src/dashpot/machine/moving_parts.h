@@ -12,10 +12,11 @@ namespace dashpot {
 // starts are tried, and the time that is held back. Or it begins on a smooth road, where a damper
 // hardly bends.
 
-/// Each recording without the ends at which every input and sensor stays at its level, of 500
-/// samples or more but for the last hundred. Where nothing measures the road, which is taken as the
-/// same all along, pauses of a second or more are left out as well: their recordings become
-/// several.
+/// Where the plant moves in a recording, in order: all but the ends at which every input and sensor
+/// stays at its level, of 500 samples or more but for the last hundred. Where nothing measures the
+/// road, which is taken as the same all along, pauses of a second or more are left out as well.
+std::vector<Stretch> moving_stretches(const InPlantSetup& setup, const PlantRecording& recording);
+/// These of each recording as recordings of their own.
 std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
                                          const std::vector<PlantRecording>& recordings);
 

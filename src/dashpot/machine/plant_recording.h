@@ -23,6 +23,12 @@ struct PlantRecording {
   const Channel& channel(std::string_view wanted) const;
 };
 
+/// Samples of a recording from `first` on, before `end`.
+struct Stretch {
+  std::size_t first = 0, end = 0;
+  std::size_t length() const { return end - first; }
+};
+
 /// Reads one table of any format that recordings come in. Column names hold their units:
 /// "excitation [N]" or "excitation (N)"; one without a unit is taken as SI and says so in its
 /// origin. Time comes from a column "time" or "t", in s unless it says else. Throws Error on a file

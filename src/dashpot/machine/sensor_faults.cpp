@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::size_t kSettled = 50;  // samples, until the filter knows where it is
 
-/// From sample `first` on, before `end`.
-struct Stretch {
-  std::size_t first = 0, end = 0;
-  std::size_t length() const { return end - first; }
-};
-
 Stretch longest_at_one_value(const std::vector<double>& shown) {
   Stretch longest;
   for (std::size_t first = 0, k = 1; k <= shown.size(); ++k) {

@@ -9,17 +9,13 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/moving_parts.h"
 #include "dashpot/numerics/distributions.h"
+#include "dashpot/numerics/median.h"
 #include "dashpot/plant.h"
 
 namespace dashpot {
 namespace {
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// Where the search for what is unknown of the plant begins: stated, or its table's.
 void begin_unknowns(InPlantSetup& setup) {
@@ -229,7 +225,7 @@ WatchedPlant watched_plant(ObservedDampers dampers, InPlantSetup setup,
         options.monitor.on_progress({own.stage, kPreparation * (round + own.fraction) / kRounds});
     };
     const ObserveReport observed =
-        observe(watched.dampers, as_begun(watched.setup), reference,
+        observe(watched.dampers, as_begun(watched.setup), moving_parts(watched.setup, reference),
                 {.causal = true, .threads = options.threads, .monitor = monitor});
     watched.noise = observed.noise;
     watched.steps = observed.steps;
@@ -240,7 +236,7 @@ WatchedPlant watched_plant(ObservedDampers dampers, InPlantSetup setup,
     for (std::size_t k = 0; k < watched.setup.unknown.size(); ++k) {
       std::vector<double> values;
       for (const DayEstimate& day : days) values.push_back(day.plant[k]);
-      watched.setup.unknown[k].about = median_of(values);
+      watched.setup.unknown[k].about = median(values);
     }
   }
   if (!has_several) return watched;
