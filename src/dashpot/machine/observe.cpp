@@ -12,6 +12,7 @@
 #include "dashpot/error.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/moving_parts.h"
 #include "dashpot/machine/sensor_faults.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/minimise.h"
@@ -191,14 +192,32 @@ void find_starts(const DamperModels& dampers, const InPlantSetup& setup,
     }
 }
 
-/// The uncertainties under which the recordings are most likely.
+constexpr std::size_t kTold = 6000;  // samples, of all recordings, that tell the uncertainties
+
+/// The recordings from where each moves as it usually does.
+std::vector<PlantRecording> usual_parts(const InPlantSetup& setup,
+                                        const std::vector<PlantRecording>& recordings) {
+  std::vector<PlantRecording> moving = moving_parts(setup, recordings);
+  std::vector<PlantRecording> lively = lively_parts(setup, moving, kTold / moving.size());
+  return lively.empty() ? moving : lively;
+}
+
+std::vector<ObservedSamples> samples_of(const InPlantSetup& setup,
+                                        const std::vector<PlantRecording>& recordings) {
+  std::vector<ObservedSamples> samples;
+  for (const PlantRecording& recording : recordings)
+    samples.push_back(observed_samples(setup, recording));
+  return samples;
+}
+
+/// The uncertainties under which the recordings are most likely, over their first samples.
 ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers,
                           const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                           const std::vector<ObservedSamples>& samples, const ObserverScale& scale,
                           int steps, const ObserveOptions& options) {
-  constexpr std::size_t kUsed = 6000, kSettled = 50;  // samples, of all recordings and of each
+  constexpr std::size_t kSettled = 50;  // samples
   constexpr double kStep = 0.01, kWall = 100;
-  const std::size_t used = std::max(kUsed / recordings.size(), 4 * kSettled);
+  const std::size_t used = std::max(kTold / recordings.size(), 4 * kSettled);
 
   // Beyond the limits the misfit rises steeply.
   const auto misfit_at = [&](std::span<const double> x) {
@@ -467,23 +486,25 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
                                ? sensor.noise
                                : kOffsetShare *
                                      rms_of(recordings.front().channel(sensor.channel).samples));
-  std::vector<ObservedSamples> samples;
-  for (const PlantRecording& recording : recordings)
-    samples.push_back(observed_samples(setup, recording));
   require_signals(setup, recordings);
+  std::vector<ObservedSamples> samples = samples_of(setup, recordings);
+  const std::vector<PlantRecording> usual = usual_parts(setup, recordings);
+  std::vector<ObservedSamples> of_usual = samples_of(setup, usual);
   const NoiseSearch search(setup, recordings, scale, options);
 
   // The filter's step, by the recording that asks for the finest; then what was not stated.
   report.steps = std::max(options.steps, 1);
-  for (std::size_t r = 0; options.steps == 0 && r < recordings.size(); ++r)
+  for (std::size_t r = 0; options.steps == 0 && r < usual.size(); ++r)
     report.steps =
-        enough_steps(models, setup, search.first(), scale, recordings[r], samples[r], report.steps);
+        enough_steps(models, setup, search.first(), scale, usual[r], of_usual[r], report.steps);
   options.monitor.report("uncertainties", 0.1);
-  if (!options.causal)
+  if (!options.causal) {
     find_starts(models, setup, recordings, search.first(), scale, report.steps, samples);
+    find_starts(models, setup, usual, search.first(), scale, report.steps, of_usual);
+  }
   report.noise_was_found = search.size() > 0;
-  report.noise = report.noise_was_found ? most_likely(search, models, setup, recordings, samples,
-                                                      scale, report.steps, options)
+  report.noise = report.noise_was_found ? most_likely(search, models, setup, usual, of_usual, scale,
+                                                      report.steps, options)
                                         : search.first();
 
   // Each recording in turn.
