@@ -284,10 +284,14 @@ TEST_CASE("several dampers: a full car's masses from four struts" * doctest::tes
   CHECK(report.sensors[0].unit == "m/s^2");
   CHECK(report.sensors[2].unit == "rad/s^2");
   CHECK(report.sensors[3].held_back < 0.1 * report.sensors[3].rms);
-  const auto& advised = report.advice.sensors;
-  CHECK(std::ranges::count(advised, "force of the damper at front_left", &PlantAddition::what) ==
-        1);
-  CHECK(std::ranges::count(advised, "force of the damper at rear_left", &PlantAddition::what) == 0);
+
+  // This law leaps where a damper passes the middle, as it does while the car is at rest: what
+  // tiny differences of its numbers change says nothing of how certain they are.
+  CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    return contains(warning, "how certain its numbers are cannot be told");
+  }));
+  CHECK_FALSE(has_interval(found_of(report.plant, "mass")));
+  CHECK(report.advice.sensors.empty());
 }
 
 TEST_CASE("several dampers: what cannot be is refused, with what would be right") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -419,7 +420,32 @@ void add_road_delays(const InPlantSetup& asked, const InPlantSetup& found, InPla
   }
 }
 
-/// Sensitivities by differences are those of the integrator's leaps where its step is too long.
+/// Whether the sensitivities at the end of a search, by short differences, are those of leaps: of a
+/// law that leaps where the plant rests, or of an integrator whose step is too long. Over longer
+/// ones the residuals change far less than these say.
+bool goes_by_leaps(const LeastSquaresProblem& problem, const LeastSquaresReport& solved,
+                   int threads) {
+  constexpr double kLonger = 1e-4, kFarLess = 0.25;
+  const std::size_t n = solved.x.size();
+  std::vector<double> at(problem.residuals);
+  if (!problem.residual(solved.x, at)) return true;
+  std::atomic<bool> leaps = false;
+  parallel_for(n, threads, [&](std::size_t k) {
+    if (!(problem.lower[k] < problem.upper[k])) return;
+    std::vector<double> x = solved.x, r(problem.residuals);
+    const double length = kLonger * std::max(1.0, std::abs(x[k]));
+    x[k] += x[k] + length <= problem.upper[k] ? length : -length;
+    double expected = 0, change = 0;
+    for (const std::vector<double>& part : solved.part_matrices)
+      expected += length * length * part[k * (n + 1)];
+    if (!problem.residual(x, r)) return;
+    for (std::size_t i = 0; i < r.size(); ++i) change += (r[i] - at[i]) * (r[i] - at[i]);
+    if (change < kFarLess * expected) leaps = true;
+  });
+  return leaps;
+}
+
+/// For where sensitivities are leaps, or the model so far off that what is left is no chance.
 void drop_intervals(InPlantReport& report) {
   for (auto* list : {&report.plant, &report.damper, &report.nuisances})
     for (FittedParameter& p : *list)
@@ -474,12 +500,14 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                                 beside, report);
     report.iterations += solved.iterations;
   }
-  const bool is_too_sharp = is_finite() && report.step_error > kStepShare;
-  if (is_too_sharp)
-    report.warnings.push_back(
-        "the integrator's step changes a sensor by " + format_number(100 * report.step_error, 2) +
-        " % of its error: the law is too sharp for it, and how certain its numbers are cannot be "
-        "told");
+  bool leaps = false;
+  if (is_finite() && report.step_error > kStepShare) {
+    leaps = goes_by_leaps(residuals.problem(0, options.threads), solved, options.threads);
+    report.warnings.push_back("the integrator's step changes a sensor by " +
+                              format_number(100 * report.step_error, 2) +
+                              " % of its error: the law is too sharp for it" +
+                              (leaps ? ", and how certain its numbers are cannot be told" : ""));
+  }
   report.steps = cases.steps;
   report.method = cases.method;
   report.message = solved.message;
@@ -499,7 +527,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   add_parameters(residuals, solved.x, spread, report, reach_of(beside));
   if (!beside.noise.empty()) add_noise(setup, beside.found, report);
   add_warnings(residuals, spread, report);
-  if (is_too_sharp) drop_intervals(report);
+  if (leaps) drop_intervals(report);
   report.advice.profiles =
       profiles_of({setup, cases, unknowns, residuals, solved, start.plant, start.scale}, spread,
                   profiled(report, options), options);
@@ -507,7 +535,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   cases = beside.cases;
 
   // What would help.
-  if (!options.grade.empty() && !is_too_sharp) {
+  if (!options.grade.empty() && !leaps) {
     if (!beside.noise.empty())
       solved = describe_at(residuals.problem(0, options.threads), solved.x,
                            {.threads = options.threads});
@@ -532,6 +560,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                                 figure.channel + ")");
   std::ranges::move(sensor_doubts(setup, report.sensors, report.traces),
                     std::back_inserter(report.warnings));
+  if (is_far_off(setup, report.traces)) drop_intervals(report);
   report.domain = domain_of(report.traces, start.scale.drive);
   report.seconds = cpu_seconds() - started;
   return report;

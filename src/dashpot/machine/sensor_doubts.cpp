@@ -11,6 +11,8 @@
 namespace dashpot {
 namespace {
 
+constexpr double kFarAway = 0.3;  // rms of the error over that of the signal
+
 /// A sensor in one recording over the time that was fitted, as measured and modelled, each without
 /// its mean and over the rms of what was measured.
 struct SensorPair {
@@ -221,7 +223,6 @@ std::string flaw_of(const std::vector<SensorPair>& pairs) {
 std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
                                        const std::vector<SensorFigures>& figures,
                                        const std::vector<InPlantTrace>& traces) {
-  constexpr double kFarAway = 0.3;  // rms of the error over that of the signal
   std::vector<std::string> doubts;
   std::string nearest;
   double least = INFINITY;
@@ -255,6 +256,12 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
                      "neither numbers nor intervals can be relied on; 'delay: unknown' of each "
                      "sensor finds an input that is late");
   return doubts;
+}
+
+bool is_far_off(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces) {
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    if (std::sqrt(left_at(pairs_of(s, setup, traces))) <= kFarAway) return false;
+  return true;
 }
 
 std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantReport& report) {

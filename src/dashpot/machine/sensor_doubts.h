@@ -19,4 +19,8 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
 /// taken for noise of, a sentence each. `report` has sensors and nuisances.
 std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantReport& report);
 
+/// Whether even the sensor that is met best is so far from the model that its numbers, and how
+/// certain they seem, cannot be relied on.
+bool is_far_off(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces);
+
 }  // namespace dashpot
