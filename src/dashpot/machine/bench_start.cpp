@@ -53,29 +53,6 @@ Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recordin
 
 }  // namespace
 
-PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end) {
-  PlantRecording part = recording;
-  part.samples = end - first;
-  for (Channel& channel : part.channels)
-    channel.samples.assign(
-        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(first),
-        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(end));
-  return part;
-}
-
-std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording) {
-  return static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
-}
-
-std::vector<PlantRecording> fitted_parts(const InPlantSetup& setup,
-                                         const std::vector<PlantRecording>& recordings) {
-  std::vector<PlantRecording> parts;
-  for (const PlantRecording& recording : recordings)
-    parts.push_back(part_of(recording, static_cast<std::size_t>(setup.skip / recording.sample_time),
-                            fitted_samples(setup, recording)));
-  return parts;
-}
-
 std::vector<Record> as_bench_records(const InPlantSetup& setup,
                                      const std::vector<PlantRecording>& fitted,
                                      const ObserveReport& observed) {

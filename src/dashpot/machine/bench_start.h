@@ -4,6 +4,7 @@
 
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/observe.h"
+#include "dashpot/machine/recording_parts.h"
 #include "dashpot/record.h"
 
 namespace dashpot {
@@ -15,14 +16,6 @@ struct Law;
 
 /// A filter's time until it has forgotten where it began, s.
 inline constexpr double kFilterSettles = 0.2;
-
-/// The part of each recording that may be fitted, behind what is skipped.
-std::vector<PlantRecording> fitted_parts(const InPlantSetup& setup,
-                                         const std::vector<PlantRecording>& recordings);
-/// The samples of a recording from `first` up to `end`.
-PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end);
-/// Samples of a recording that are fitted, from the first one on; those behind judge the result.
-std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording);
 
 /// The plant with these numbers as its unknowns (SI), and a dashpot and large errors of its force
 /// in the damper's place. Throws Error as observe() does.

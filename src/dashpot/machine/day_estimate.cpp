@@ -7,7 +7,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/machine/moving_parts.h"
+#include "dashpot/machine/recording_parts.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/ground/road_profile.h"
 
@@ -448,7 +448,7 @@ void require_usable(const WatchedPlant& watched, const PlantRecording& recording
                 "one rate on all days: at another one the same damper seems another");
   constexpr double kFewest = 3;  // s
   double moves = 0;
-  for (const Stretch& one : moving_stretches(watched.setup, recording))
+  for (const SampleRange& one : moving_stretches(watched.setup, recording))
     moves += recording.sample_time * static_cast<double>(one.length());
   const double lasts = recording.sample_time * static_cast<double>(recording.samples);
   if (moves < kDaySettles + kFewest - kSame)

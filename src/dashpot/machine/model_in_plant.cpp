@@ -19,10 +19,10 @@
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
-#include "dashpot/machine/moving_parts.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_fit_store.h"
 #include "dashpot/machine/plant_residuals.h"
+#include "dashpot/machine/recording_parts.h"
 
 namespace dashpot {
 namespace {

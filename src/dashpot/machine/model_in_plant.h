@@ -37,10 +37,10 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
                              const std::string& where);
 
 /// Identifies each of these models as the damper of this plant, from the recordings without their
-/// still parts (moving_parts.h): laws first, then the others along the law that leaves least of the
-/// time that was fitted. Fits that the store has are taken from it, and new ones are kept there as
-/// soon as they are done. Throws Error, before long work, where these recordings cannot serve. Not
-/// converging is a status.
+/// still parts (recording_parts.h): laws first, then the others along the law that leaves least of
+/// the time that was fitted. Fits that the store has are taken from it, and new ones are kept there
+/// as soon as they are done. Throws Error, before long work, where these recordings cannot serve.
+/// Not converging is a status.
 std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models,
                                           const InPlantSetup& setup,
                                           const std::vector<PlantRecording>& recordings,

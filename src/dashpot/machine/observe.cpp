@@ -12,7 +12,7 @@
 #include "dashpot/error.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/between_samples.h"
-#include "dashpot/machine/moving_parts.h"
+#include "dashpot/machine/recording_parts.h"
 #include "dashpot/machine/sensor_faults.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/minimise.h"

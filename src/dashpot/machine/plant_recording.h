@@ -24,7 +24,7 @@ struct PlantRecording {
 };
 
 /// Samples of a recording from `first` on, before `end`.
-struct Stretch {
+struct SampleRange {
   std::size_t first = 0, end = 0;
   std::size_t length() const { return end - first; }
 };

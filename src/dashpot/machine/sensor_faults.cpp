@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kSettled = 50;  // samples, until the filter knows where it is
 
-Stretch longest_at_one_value(const std::vector<double>& shown) {
-  Stretch longest;
+SampleRange longest_at_one_value(const std::vector<double>& shown) {
+  SampleRange longest;
   for (std::size_t first = 0, k = 1; k <= shown.size(); ++k) {
     if (k < shown.size() && shown[k] == shown[first]) continue;
     if (k - first > longest.length()) longest = {first, k};
@@ -29,7 +29,7 @@ Stretch longest_at_one_value(const std::vector<double>& shown) {
 struct Beyond {
   double within = 0, rest = 0;
 };
-std::optional<Beyond> beyond_of(const ObservedRun& run, std::size_t sensor, Stretch stretch) {
+std::optional<Beyond> beyond_of(const ObservedRun& run, std::size_t sensor, SampleRange stretch) {
   constexpr double kFewest = 20;
   double squares[2] = {0, 0}, counts[2] = {0, 0};
   for (std::size_t k = kSettled; k < run.samples.size(); ++k) {
@@ -141,7 +141,7 @@ std::vector<std::string> held_sensors(const InPlantSetup& setup, const PlantReco
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const PlantSensor& sensor = setup.sensors[s];
     const std::vector<double>& shown = recording.channel(sensor.channel).samples;
-    const Stretch held = longest_at_one_value(shown);
+    const SampleRange held = longest_at_one_value(shown);
     const double step = recording.sample_time;
     if (static_cast<double>(held.length()) * step < kShortest) continue;
     const auto beyond = beyond_of(run, s, held);

@@ -9,7 +9,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/machine/moving_parts.h"
+#include "dashpot/machine/recording_parts.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/median.h"
 #include "dashpot/plant.h"

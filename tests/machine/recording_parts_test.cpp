@@ -1,4 +1,4 @@
-#include "dashpot/machine/moving_parts.h"
+#include "dashpot/machine/recording_parts.h"
 
 #include <cmath>
 

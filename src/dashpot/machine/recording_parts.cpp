@@ -1,4 +1,4 @@
-#include "dashpot/machine/moving_parts.h"
+#include "dashpot/machine/recording_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <span>
 
 #include "dashpot/base/text.h"
-#include "dashpot/machine/bench_start.h"
 
 namespace dashpot {
 namespace {
@@ -50,7 +49,8 @@ std::vector<std::string> channels_in_motion(const InPlantSetup& setup) {
 }
 
 /// Where for some time all channels stay at their level, in order.
-std::vector<Stretch> still_stretches(const InPlantSetup& setup, const PlantRecording& recording) {
+std::vector<SampleRange> still_stretches(const InPlantSetup& setup,
+                                         const PlantRecording& recording) {
   constexpr std::size_t kFewest = 10;  // blocks
   std::vector<std::pair<std::span<const double>, double>> signals;
   for (const std::string& name : channels_in_motion(setup)) {
@@ -58,7 +58,7 @@ std::vector<Stretch> still_stretches(const InPlantSetup& setup, const PlantRecor
     if (const double range = usual_range(samples); range > 0) signals.emplace_back(samples, range);
   }
 
-  std::vector<Stretch> stretches;
+  std::vector<SampleRange> stretches;
   const std::size_t blocks = recording.samples / kBlock;
   for (std::size_t block = 0; block < blocks; ++block) {
     std::size_t still = blocks - block;
@@ -73,10 +73,10 @@ std::vector<Stretch> still_stretches(const InPlantSetup& setup, const PlantRecor
 
 /// The stretches that are left out: at either end; where nothing measures the road, which is taken
 /// as the same all along, those between too.
-std::vector<Stretch> left_out_of(const InPlantSetup& setup, const PlantRecording& recording) {
+std::vector<SampleRange> left_out_of(const InPlantSetup& setup, const PlantRecording& recording) {
   constexpr std::size_t kKept = 2 * kBlock;  // samples beside those that move
   constexpr double kPause = 1;               // s
-  std::vector<Stretch> left_out;
+  std::vector<SampleRange> left_out;
   for (auto [first, end] : still_stretches(setup, recording)) {
     const bool at_start = first == 0, at_end = end + kBlock > recording.samples;
     const double lasts = recording.sample_time * static_cast<double>(end - first);
@@ -135,24 +135,48 @@ std::string seconds_at(std::size_t sample, const PlantRecording& recording) {
 
 }  // namespace
 
-std::vector<Stretch> moving_stretches(const InPlantSetup& setup, const PlantRecording& recording) {
+PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end) {
+  PlantRecording part = recording;
+  part.samples = end - first;
+  for (Channel& channel : part.channels)
+    channel.samples.assign(
+        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(first),
+        recording.channel(channel.name).samples.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
+}
+
+std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording) {
+  return static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
+}
+
+std::vector<PlantRecording> fitted_parts(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings) {
+  std::vector<PlantRecording> parts;
+  for (const PlantRecording& recording : recordings)
+    parts.push_back(part_of(recording, static_cast<std::size_t>(setup.skip / recording.sample_time),
+                            fitted_samples(setup, recording)));
+  return parts;
+}
+
+std::vector<SampleRange> moving_stretches(const InPlantSetup& setup,
+                                          const PlantRecording& recording) {
   constexpr std::size_t kFewest = 1000;  // samples between two pauses
-  std::vector<Stretch> kept{{0, recording.samples}};
+  std::vector<SampleRange> kept{{0, recording.samples}};
   for (const auto& [first, end] : left_out_of(setup, recording)) {
     kept.back().end = first;
     kept.push_back({end, recording.samples});
   }
-  std::erase_if(kept, [&](const Stretch& one) {
+  std::erase_if(kept, [&](const SampleRange& one) {
     return one.length() == 0 || (one.length() < kFewest && kept.size() > 1);
   });
-  return kept.empty() ? std::vector<Stretch>{{0, recording.samples}} : kept;
+  return kept.empty() ? std::vector<SampleRange>{{0, recording.samples}} : kept;
 }
 
 std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
                                          const std::vector<PlantRecording>& recordings) {
   std::vector<PlantRecording> parts;
   for (const PlantRecording& one : recordings) {
-    const std::vector<Stretch> kept = moving_stretches(setup, one);
+    const std::vector<SampleRange> kept = moving_stretches(setup, one);
     for (const auto& [first, end] : kept) {
       parts.push_back(part_of(one, first, end));
       if (kept.size() > 1)

@@ -7,15 +7,26 @@
 
 namespace dashpot {
 
+// Parts of recordings.
+//
 // A recording often begins before the plant moves, and goes on after it has stopped: the car
 // stands, the shaker waits. Such ends tell nothing of plant and damper but fill the time over which
 // starts are tried, and the time that is held back. Or it begins on a smooth road, where a damper
 // hardly bends.
 
+/// The part of each recording that may be fitted, behind what is skipped.
+std::vector<PlantRecording> fitted_parts(const InPlantSetup& setup,
+                                         const std::vector<PlantRecording>& recordings);
+/// The samples of a recording from `first` up to `end`.
+PlantRecording part_of(const PlantRecording& recording, std::size_t first, std::size_t end);
+/// Samples of a recording that are fitted, from the first one on; those behind judge the result.
+std::size_t fitted_samples(const InPlantSetup& setup, const PlantRecording& recording);
+
 /// Where the plant moves in a recording, in order: all but the ends at which every input and sensor
 /// stays at its level, of 500 samples or more but for the last hundred. Where nothing measures the
 /// road, which is taken as the same all along, pauses of a second or more are left out as well.
-std::vector<Stretch> moving_stretches(const InPlantSetup& setup, const PlantRecording& recording);
+std::vector<SampleRange> moving_stretches(const InPlantSetup& setup,
+                                          const PlantRecording& recording);
 /// These of each recording as recordings of their own.
 std::vector<PlantRecording> moving_parts(const InPlantSetup& setup,
                                          const std::vector<PlantRecording>& recordings);
