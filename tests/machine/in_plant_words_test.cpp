@@ -169,6 +169,7 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
                  "time has no unit and steps of 2, which are no seconds of a plant; name the "
                  "column 't [ms]'"));
   CHECK(without_units({&recording, 1}) ==
-        "push: no unit in the columns' names, taken as SI; name them as 'push [mm]'");
+        "push: no unit in the columns' names, taken as SI; name them with it, as 'level [mm]' or "
+        "'coil [A]'");
   CHECK(contains(wrong("time,level [smoot],push\n0,1,1\n1,1,2\n2,4,3\n"), "smoot"));
 }

@@ -113,8 +113,8 @@ std::string without_units(std::span<const PlantRecording> recordings) {
     for (const std::string& name : recording.without_unit)
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   if (names.empty()) return {};
-  return join(names, ", ") + ": no unit in the columns' names, taken as SI; name them as '" +
-         names.front() + " [mm]'";
+  return join(names, ", ") + ": no unit in the columns' names, taken as SI; name them with it, " +
+         "as 'level [mm]' or 'coil [A]'";
 }
 
 PlantRecording read_plant_recording(const std::filesystem::path& path,
