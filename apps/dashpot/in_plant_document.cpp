@@ -1,0 +1,294 @@
+#include "in_plant_document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "console.h"
+#include "dashpot/base/text.h"
+#include "dashpot/machine/in_plant_result.h"
+#include "plant_advice_section.h"
+
+namespace dashpot::cli {
+namespace {
+
+std::string value_text(const FittedParameter& p) { return format_number(p.value, 5); }
+
+std::string interval_text(const FittedParameter& p) {
+  if (p.fixed) return "fixed";
+  if (!has_interval(p)) return "none";
+  return format_number(p.low, 5) + " ... " + format_number(p.high, 5);
+}
+
+DocumentTable parameter_table(const std::string& title,
+                              const std::vector<FittedParameter>& parameters) {
+  DocumentTable table{.title = title,
+                      .columns = {{"parameter"},
+                                  {"value", true},
+                                  {"95 % interval", true},
+                                  {"unit"},
+                                  {"remark", false, 1}},
+                      .rows = {}};
+  for (const FittedParameter& p : parameters) {
+    std::string remark = p.meaning;
+    if (p.at_bound) remark = "at a bound of its range";
+    if (p.weak) remark = "cannot be told from these sensors";
+    table.rows.push_back({p.name, value_text(p), interval_text(p), p.unit, remark});
+  }
+  return table;
+}
+
+DocumentTable sensor_table(const InPlantReport& report) {
+  DocumentTable table{.title = report.road_measured ? "Sensors, in free run of the whole plant"
+                                                    : "Sensors, one sample ahead",
+                      .columns = {{"recording"},
+                                  {"sensor"},
+                                  {"unit"},
+                                  {"rms of signal", true},
+                                  {"error, fitted", true},
+                                  {"error, held back", true},
+                                  {"held back %", true},
+                                  {"offset", true, 1}},
+                      .rows = {}};
+
+  for (const SensorFigures& s : report.sensors)
+    table.rows.push_back({s.recording, s.channel, s.unit, format_number(s.rms),
+                          format_number(s.training), format_number(s.held_back),
+                          format_number(100 * s.held_back / s.rms, 3), format_number(s.offset, 3)});
+
+  table.note =
+      report.road_measured
+          ? "Errors are rms, after the sensor's offset in the part that was fitted; the time held "
+            "back was seen by no fit, and the plant runs free from the first sample on."
+          : "Errors are rms, of what a filter of plant and damper expects one sample ahead: "
+            "nothing "
+            "can run free on a road that is not known. The time held back was seen by no fit.";
+  return table;
+}
+
+/// The noise of what states none: what was found, and what could not be told.
+std::vector<std::string> noise_lines_of(const InPlantReport& report) {
+  std::vector<std::string> told, untold, lines;
+  for (const FoundNoise& one : report.noise)
+    if (one.deviation > 0)
+      told.push_back(one.channel + " " + format_number(one.deviation, 3) + " " + one.unit);
+    else
+      untold.push_back(one.channel);
+  if (!told.empty())
+    lines.push_back(
+        "Noise that was not stated was found, and stands in the files for 'observe', "
+        "'watch' and 'export --in': " +
+        join(told, ", ") + '.');
+  if (!untold.empty())
+    lines.push_back("The noise of " + join(untold, ", ") +
+                    " cannot be told from the model's error: state it for 'observe'.");
+  return lines;
+}
+
+/// What can be told, and what the fit rests on, in words.
+std::vector<std::string> knowable_lines(const InPlantReport& report) {
+  std::vector<std::string> lines = noise_lines_of(report);
+  const Knowable& known = report.knowable;
+
+  // What these sensors tell of the unknowns.
+  if (!known.singular_values.empty())
+    lines.push_back(fmt::format(
+        "Before the fit: {} unknowns, singular values of their sensitivities from {} to {}.",
+        known.singular_values.size(), format_number(known.singular_values.front(), 3),
+        format_number(known.singular_values.back(), 3)));
+  if (!known.without_effect.empty())
+    lines.push_back("No sensor shows an effect of " + join(known.without_effect, ", ") + '.');
+  for (const auto& group : known.confounded)
+    lines.push_back("These can be traded against each other: " + join(group, ", ") + '.');
+  if (!report.road_measured) {
+    lines.push_back(
+        "Nothing measures the road: all unknowns are those under which the sensors are most "
+        "likely, "
+        "along the damper's motion that they tell.");
+    return lines;
+  }
+
+  if (!report.along.empty())
+    lines.push_back(fmt::format(
+        "The model learnt from the damper's motion and force that the sensors tell along {}. The "
+        "numbers of the plant have no intervals beside it: those of {} say what the sensors tell.",
+        report.along, report.along));
+
+  // How it was integrated, and how well.
+  lines.push_back(fmt::format(
+      "Integrated {}, {} steps per sample; half the step changes the worst sensor by {} % of its "
+      "error.",
+      report.method == PlantMethod::RungeKutta
+          ? "by the classical Runge-Kutta method"
+          : "exactly for the plant, under a force that goes straight over a step",
+      report.steps, format_number(100 * report.step_error, 2)));
+  return lines;
+}
+
+DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& setup) {
+  constexpr std::size_t kMostShown = 1500;
+  DocumentFigure figure{.name = "sensors",
+                        .title = "Sensors",
+                        .caption = "Measured and modelled, at the end of the first recording.",
+                        .panels = {}};
+  const InPlantTrace& trace = report.traces.front();
+  const std::size_t count = trace.current.size();
+  const std::size_t first = count > kMostShown ? count - kMostShown : 0;
+  if (!report.road_measured) {
+    figure.title = "Damper";
+    figure.caption = "The damper as it was observed, at the end of what was fitted of a recording.";
+  }
+  for (std::size_t s = 0; s < trace.modelled.size(); ++s) {
+    FigurePanel panel{.title = setup.sensors[s].channel,
+                      .x_label = "time, s",
+                      .y_label = setup.sensors[s].channel + ", " + report.sensors[s].unit,
+                      .series = {},
+                      .reads_along_x = true};
+    FigureSeries measured{.label = "measured", .colour = "measured"};
+    FigureSeries modelled{.label = "modelled", .colour = "modelled"};
+    for (std::size_t k = first; k < count; ++k) {
+      measured.x.push_back(trace.sample_time * static_cast<double>(k));
+      measured.y.push_back(trace.measured[s][k]);
+      modelled.y.push_back(trace.modelled[s][k]);
+    }
+    modelled.x = measured.x;
+    panel.series = {std::move(measured), std::move(modelled)};
+    figure.panels.push_back(std::move(panel));
+  }
+
+  // The virtual load cells: what no sensor measures.
+  for (const DamperTrace& damper : trace.dampers) {
+    const std::string place = trace.dampers.size() > 1 ? " at " + damper.strut : "";
+    FigurePanel panel{.title = "force of the damper" + place +
+                               (report.road_measured ? ", modelled" : ", observed"),
+                      .x_label = "deflection, m",
+                      .y_label = "force, N",
+                      .series = {}};
+    FigureSeries loop{.label = "modelled", .colour = "modelled"};
+    for (std::size_t k = first; k < count; ++k) {
+      loop.x.push_back(damper.deflection[k]);
+      loop.y.push_back(damper.force[k]);
+    }
+    panel.series = {std::move(loop)};
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+std::string remark_of(const InPlantFit& fit) {
+  if (fit.report.status != FitReport::Status::Converged) return fit.report.message;
+  if (!fit.was_asked_for) return "not asked for: the others learnt along it";
+  if (!fit.report.lacks.empty()) return "lacks a " + fit.report.lacks;
+  return fit.report.along.empty() ? "" : "learnt along " + fit.report.along;
+}
+
+DocumentTable models_in_free_run(const std::vector<InPlantFit>& fits) {
+  DocumentTable table{.title = "Models, by the worst sensor on the time held back",
+                      .columns = {{"model"}, {"error %", true}, {"CPU s", true}, {"remark"}},
+                      .rows = {}};
+  for (const InPlantFit& fit : fits)
+    table.rows.push_back({fit.model, format_number(worst_of(fit), 3),
+                          format_number(fit.report.seconds, 3), remark_of(fit)});
+  return table;
+}
+
+/// Where nothing measures the road.
+DocumentTable models_by_force_error(const std::vector<InPlantFit>& fits) {
+  const bool lacks =
+      std::ranges::any_of(fits, [](const InPlantFit& fit) { return !fit.report.lacks.empty(); });
+  DocumentTable table{.title = std::string("Models, ") +
+                               (lacks ? "first those without a known lack, " : "") +
+                               "by what they leave of the damper's force",
+                      .columns = {{"model"},
+                                  {"force error N", true},
+                                  {"worst sensor %", true},
+                                  {"CPU s", true},
+                                  {"remark"}},
+                      .rows = {}};
+
+  for (const InPlantFit& fit : fits)
+    table.rows.push_back({fit.model, format_number(fit.report.force_error, 3),
+                          format_number(worst_of(fit), 3), format_number(fit.report.seconds, 3),
+                          remark_of(fit)});
+
+  table.note =
+      "Force error: rms of what the law leaves of the force, as the sensors tell it. Worst sensor: "
+      "error one sample ahead on the time held back, over its rms, which says little of the law.";
+  return table;
+}
+
+std::string verdict_of(const InPlantFit& best, const InPlantSetup& setup) {
+  const InPlantReport& report = best.report;
+  if (!report.model) return "Nothing could be fitted: " + report.message;
+  const std::string where = best.model + " in the " + std::string(setup.model->name) + ": ";
+  if (!report.road_measured)
+    return where + "it leaves " + format_number(report.force_error, 3) +
+           " N of the damper's force (rms), as the sensors tell it; nothing measures the road.";
+  return where + format_number(worst_of(best), 3) +
+         " % of the worst sensor's rms is left on the time held back, in free run.";
+}
+
+}  // namespace
+
+double worst_of(const InPlantFit& fit) {
+  double share = 0;
+  for (const SensorFigures& s : fit.report.sensors)
+    share = std::max(share, 100 * (std::isnan(s.held_back) ? s.training : s.held_back) / s.rms);
+  return fit.report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
+}
+
+Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const InPlantFit> doubted,
+                           const std::string& left_out, const InPlantSetup& setup,
+                           const Console& console) {
+  const InPlantFit& best = fits.front();
+  Document document{.title = "A damper identified in its plant",
+                    .subtitle = std::string(setup.model->title),
+                    .verdict = {},
+                    .sections = {},
+                    .command = console.command_line(),
+                    .version = DASHPOT_VERSION,
+                    .date = date_now(),
+                    .kind = "identification"};
+  document.verdict = verdict_of(best, setup);
+
+  // What speaks against them stands first in the files; the terminal has it as warnings.
+  DocumentSection doubts{
+      .name = "doubts", .title = "In doubt", .paragraphs = {}, .audience = Audience::Files};
+  for (const InPlantFit& fit : doubted)
+    for (const std::string& warning : fit.report.warnings)
+      doubts.remarks.push_back(fit.model + ": " + warning);
+  if (!doubts.remarks.empty()) document.sections.push_back(std::move(doubts));
+
+  if (fits.size() > 1)
+    document.sections.push_back(
+        {.name = "models",
+         .title = "Models",
+         .paragraphs = {},
+         .tables = {best.report.road_measured ? models_in_free_run(fits)
+                                              : models_by_force_error(fits)}});
+
+  // The best of them in full.
+  if (best.report.model) {
+    DocumentSection section{.name = "fit", .title = best.model, .paragraphs = {}};
+    section.tables = {sensor_table(best.report)};
+    if (!best.report.plant.empty())
+      section.tables.push_back(parameter_table("Plant", best.report.plant));
+    if (!best.report.damper.empty())
+      section.tables.push_back(parameter_table("Damper", best.report.damper));
+    if (!best.report.nuisances.empty())
+      section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
+    if (best.report.road_measured) section.tables.back().audience = Audience::Files;
+    add_advice(best.report.advice, section);
+    section.figures.insert(section.figures.begin(), sensor_figure(best.report, setup));
+    section.remarks = knowable_lines(best.report);
+    if (!left_out.empty()) section.remarks.push_back(left_out);
+    document.sections.push_back(std::move(section));
+  }
+  Value list = Value::array();
+  for (const InPlantFit& fit : fits) list.push_back(to_json(fit.report, fit.model));
+  document.data = Value::object({{"plant", setup.model->name}, {"fits", std::move(list)}});
+  return document;
+}
+
+}  // namespace dashpot::cli
