@@ -168,6 +168,10 @@ bool add_information(const EndedFit& fit, std::size_t recording,
   const auto shown = fit.residuals.other_sensors(x, recording, places);
   std::vector<PlantResiduals::Shown> slopes(x.size());
   parallel_for(x.size(), threads, [&](std::size_t k) {
+    if (!fit.residuals.acts_on(k, recording)) {
+      for (const std::vector<double>& samples : shown) slopes[k].emplace_back(samples.size(), 0.0);
+      return;
+    }
     std::vector<double> moved = x;
     const double length = kStep * std::max(1.0, std::abs(x[k]));
     moved[k] += length;

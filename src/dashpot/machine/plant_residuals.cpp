@@ -209,6 +209,11 @@ std::vector<double> PlantResiduals::off_bounds(std::vector<double> x) const {
   return x;
 }
 
+bool PlantResiduals::acts_on(std::size_t k, std::size_t recording) const {
+  const bool is_state = k >= first_state_ && k < first_delay_;
+  return !is_state || recording == (k - first_state_) / states();
+}
+
 bool PlantResiduals::is_of_law(std::size_t k) const {
   return k >= plant_unknowns() && k < first_state_;
 }
@@ -384,13 +389,11 @@ double PlantResiduals::difference_step(std::span<const double> x, std::size_t k,
   return moved < lower_[k] || moved > upper_[k] ? 0 : step;
 }
 
-/// A recording's rows of one column, where r holds those of the residuals at x. A state at the
-/// beginning acts on its recording alone.
+/// A recording's rows of one column, where r holds those of the residuals at x.
 bool PlantResiduals::difference(std::span<const double> x, std::size_t place, std::size_t samples,
                                 std::span<const double> r, const RunBeside& beside, std::size_t k,
                                 double step, std::span<double> column) const {
-  const bool of_one = k >= first_state_ && k < first_delay_;
-  if (of_one && place != (k - first_state_) / states()) {
+  if (!acts_on(k, place)) {
     std::ranges::fill(column, 0.0);
     return true;
   }

@@ -54,6 +54,9 @@ class PlantResiduals : public InPlantUnknowns {
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperModel& held,
                  const std::vector<double>& plant, const DataScale& scale);
 
+  /// Whether unknown k acts on this recording: a state at a beginning does so on its own alone.
+  bool acts_on(std::size_t k, std::size_t recording) const;
+
   /// The start: the plant's numbers and, per recording, coordinates and their velocities at its
   /// beginning (SI; empty: at rest), the law's start or, with `random`, one beside it.
   std::vector<double> start(const std::vector<double>& plant,
