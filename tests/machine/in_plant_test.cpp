@@ -8,6 +8,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
 #include "dashpot/machine/duhem_law.h"
+#include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/simulate.h"
@@ -193,6 +194,30 @@ TEST_CASE("in plant: a sensor that is the other way round is told" * doctest::te
   CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
     return contains(warning, "a: shows -") && contains(warning, "the other way round?");
   }));
+}
+
+TEST_CASE("in plant: what comes late is found out unasked, and the mass with it" *
+          doctest::test_suite("long")) {
+  constexpr std::size_t kLate = 8;  // samples of 2.5 ms
+  PlantRecording recording = short_recording();
+  std::vector<double>& x = recording.channels[1].samples;
+  std::copy_backward(x.begin(), x.end() - kLate, x.end());
+  InPlantSetup setup = oscillator_setup();
+  setup.unknown[0].about = 1.5;
+  const InPlantReport report =
+      identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.grade = ""});
+  REQUIRE(report.model);
+  CHECK_CLOSE(report.plant[0].value, 2, 0.01, 0);
+  CHECK_CLOSE(named(report.nuisances, "delay of x").value, 0.02, 0.02, 0);
+  CHECK(contains(report.warnings.back(), "not at one time: delay of x 20"));
+  CHECK(as_found(setup, report).sensors[0].delay == named(report.nuisances, "delay of x").value);
+
+  // What the plant states stays.
+  setup.sensors[0].delay = 1e-4;
+  const InPlantReport stated =
+      identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.grade = ""});
+  CHECK(std::ranges::find(stated.nuisances, "delay of x", &FittedParameter::name) ==
+        stated.nuisances.end());
 }
 
 TEST_CASE("in plant: where nothing fits, no number seems certain") {

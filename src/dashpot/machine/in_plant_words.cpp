@@ -536,7 +536,7 @@ InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
     PlantSensor& sensor = setup.sensors[s];
     sensor.identified = identified(sensor.channel, sensor.noise);
     for (const FittedParameter& p : report.nuisances)
-      if (sensor.finds_delay && p.name == "delay of " + sensor.channel) sensor.delay = p.value;
+      if (p.name == "delay of " + sensor.channel) sensor.delay = p.value;
     sensor.finds_delay = false;
   }
   return setup;

@@ -73,6 +73,17 @@ InPlantSetup with_noise_found(InPlantSetup setup, const InPlantReport& law) {
   return setup;
 }
 
+/// The setup with the delays of sensors that the law's fit has found, asked for or not.
+InPlantSetup with_delays_found(InPlantSetup setup, const InPlantReport& law) {
+  for (PlantSensor& sensor : setup.sensors)
+    for (const FittedParameter& p : law.nuisances)
+      if (p.name == "delay of " + sensor.channel) {
+        sensor.finds_delay = true;
+        sensor.delay = p.value;
+      }
+  return setup;
+}
+
 /// The mean square of what is left at the sensors over their noise, on the time that is fitted.
 double left_over(const std::vector<SensorFigures>& figures, const InPlantSetup& setup) {
   double sum = 0;
@@ -223,7 +234,7 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
   constexpr std::size_t kSteps = 4;  // of the integrator per sample
   constexpr double kBetter = 0.98;   // of what the round before left
   const double started = cpu_seconds();
-  const InPlantSetup setup = with_noise_found(stated, law.report);
+  const InPlantSetup setup = with_delays_found(with_noise_found(stated, law.report), law.report);
   const DataScale scale = scale_of(law.report.traces);
   Round best;
   best.known = as_found(setup, law.report);

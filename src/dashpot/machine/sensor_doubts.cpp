@@ -176,45 +176,67 @@ std::size_t at_end_of_range(const SensorPair& pair) {
   return stand;
 }
 
-/// The one flaw that explains most of what is left at a sensor, in words; empty where none does.
-std::string flaw_of(const std::vector<SensorPair>& pairs) {
+/// The one flaw that explains most of what is left at a sensor.
+struct MainFlaw {
+  enum class Of { Nothing, Range, Factor, Delay, Drift, Spikes } of = Of::Nothing;
+  double value = 0;
+  double left = 0, before = 0;  ///< power over that of the signal, without the flaw and with it
+};
+
+MainFlaw main_flaw(const std::vector<SensorPair>& pairs) {
   constexpr double kLooked = 0.1;    // rms of the error over that of the signal, and more
   constexpr double kExplains = 0.3;  // of the power is left at most
-  const double left = left_at(pairs);
-  if (!(left > kLooked * kLooked)) return {};
+  const double before = left_at(pairs);
+  if (!(before > kLooked * kLooked)) return {};
 
   // What is seen of the sensor alone comes first.
   std::size_t stand = 0;
   for (const SensorPair& pair : pairs) stand += at_end_of_range(pair);
-  if (stand > 0)
-    return std::to_string(stand) +
-           " samples stand at its greatest or least value: where it is at the end of its range, "
-           "the plant goes on: leave it out, or record with a wider range";
+  if (stand > 0) return {MainFlaw::Of::Range, static_cast<double>(stand), before, before};
 
-  const Flaw factor = as_factor(pairs), delay = as_delay(pairs), drift = as_drift(pairs),
-             spikes = as_spikes(pairs);
-  const double least = std::min({factor.left, delay.left, drift.left, spikes.left});
-  if (!(least < kExplains * left)) return {};
-  const std::string rest = format_number(100 * std::sqrt(least), 3) + " % of its rms away, not " +
-                           format_number(100 * std::sqrt(left), 3) + " %";
-  if (least == factor.left) {
-    const std::string times = format_number(factor.value, 4);
-    return "shows " + times + " times what the model does, and with that is " + rest +
-           (factor.value < 0 ? ": does it count the other way round?" : ": is its unit right?");
+  MainFlaw main{.left = kExplains * before, .before = before};
+  const auto ask = [&](MainFlaw::Of of, const Flaw& flaw) {
+    if (flaw.left < main.left) main = {of, flaw.value, flaw.left, before};
+  };
+  ask(MainFlaw::Of::Factor, as_factor(pairs));
+  ask(MainFlaw::Of::Delay, as_delay(pairs));
+  ask(MainFlaw::Of::Drift, as_drift(pairs));
+  ask(MainFlaw::Of::Spikes, as_spikes(pairs));
+  return main;
+}
+
+/// In words; empty where there is none.
+std::string flaw_of(const std::vector<SensorPair>& pairs) {
+  const MainFlaw flaw = main_flaw(pairs);
+  const std::string rest = format_number(100 * std::sqrt(flaw.left), 3) +
+                           " % of its rms away, not " +
+                           format_number(100 * std::sqrt(flaw.before), 3) + " %";
+  const bool is_late = flaw.value > 0;
+  switch (flaw.of) {
+    case MainFlaw::Of::Nothing:
+      return {};
+    case MainFlaw::Of::Range:
+      return format_number(flaw.value) +
+             " samples stand at its greatest or least value: where it is at the end of its range, "
+             "the plant goes on: leave it out, or record with a wider range";
+    case MainFlaw::Of::Factor:
+      return "shows " + format_number(flaw.value, 4) +
+             " times what the model does, and with that is " + rest +
+             (flaw.value < 0 ? ": does it count the other way round?" : ": is its unit right?");
+    case MainFlaw::Of::Delay:
+      return "comes " + format_number(1000 * std::abs(flaw.value), 3) +
+             (is_late ? " ms later" : " ms earlier") + " than the model has it, and with that is " +
+             rest +
+             (is_late ? ": state its 'delay', or 'delay: unknown'"
+                      : ": are the inputs late? 'delay: unknown' of each sensor finds it");
+    case MainFlaw::Of::Drift:
+      return "drifts, by up to " + format_number(100 * std::abs(flaw.value), 3) +
+             " % of its rms over a recording, and without that is " + rest +
+             ": take the drift off, or leave the sensor out";
+    case MainFlaw::Of::Spikes:
+      break;
   }
-  if (least == delay.left) {
-    const bool is_late = delay.value > 0;
-    return "comes " + format_number(1000 * std::abs(delay.value), 3) +
-           (is_late ? " ms later" : " ms earlier") + " than the model has it, and with that is " +
-           rest +
-           (is_late ? ": state its 'delay', or 'delay: unknown'"
-                    : ": are the inputs late? 'delay: unknown' of each sensor finds it");
-  }
-  if (least == drift.left)
-    return "drifts, by up to " + format_number(100 * std::abs(drift.value), 3) +
-           " % of its rms over a recording, and without that is " + rest +
-           ": take the drift off, or leave the sensor out";
-  return "has most of its error in " + format_number(spikes.value) +
+  return "has most of its error in " + format_number(flaw.value) +
          " samples, without which it is " + rest + ": has it spikes, or does the plant hit a stop?";
 }
 
@@ -262,6 +284,12 @@ bool is_far_off(const InPlantSetup& setup, const std::vector<InPlantTrace>& trac
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
     if (std::sqrt(left_at(pairs_of(s, setup, traces))) <= kFarAway) return false;
   return true;
+}
+
+bool seems_late(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces) {
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    if (main_flaw(pairs_of(s, setup, traces)).of == MainFlaw::Of::Delay) return true;
+  return false;
 }
 
 std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantReport& report) {

@@ -23,4 +23,7 @@ std::vector<std::string> noise_doubts(const InPlantSetup& setup, const InPlantRe
 /// certain they seem, cannot be relied on.
 bool is_far_off(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces);
 
+/// Whether some sensor comes late or early, by what it shows beside the model.
+bool seems_late(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces);
+
 }  // namespace dashpot
