@@ -192,13 +192,13 @@ void find_starts(const DamperModels& dampers, const InPlantSetup& setup,
     }
 }
 
-constexpr std::size_t kTold = 6000;  // samples, of all recordings, that tell the uncertainties
+constexpr std::size_t kTelling = 6000;  // samples, of all recordings, that tell the uncertainties
 
 /// The recordings from where each moves as it usually does.
 std::vector<PlantRecording> usual_parts(const InPlantSetup& setup,
                                         const std::vector<PlantRecording>& recordings) {
   std::vector<PlantRecording> moving = moving_parts(setup, recordings);
-  std::vector<PlantRecording> lively = lively_parts(setup, moving, kTold / moving.size());
+  std::vector<PlantRecording> lively = lively_parts(setup, moving, kTelling / moving.size());
   return lively.empty() ? moving : lively;
 }
 
@@ -217,7 +217,7 @@ ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers
                           int steps, const ObserveOptions& options) {
   constexpr std::size_t kSettled = 50;  // samples
   constexpr double kStep = 0.01, kWall = 100;
-  const std::size_t used = std::max(kTold / recordings.size(), 4 * kSettled);
+  const std::size_t used = std::max(kTelling / recordings.size(), 4 * kSettled);
 
   // Beyond the limits the misfit rises steeply.
   const auto misfit_at = [&](std::span<const double> x) {

@@ -16,7 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kFewestToDerive = 4;
-constexpr std::size_t kMany = 100'000;  // samples from which threads pay
+constexpr std::size_t kThreadsPay = 100'000;  // samples from which threads pay
 
 /// Central differences in place, one-sided of second order at the ends.
 void to_slope(std::vector<double>& x, double dt) {
@@ -76,7 +76,7 @@ Derivative raised_for_fast_stretches(std::span<const double> x, double dt, doubl
   constexpr double kPeriods = 5;  // of the cut-off in a stretch
   if (x.size() < kFewestToDerive || !(4 * cutoff_hz <= highest_hz)) return {cutoff_hz, {}};
   std::array<std::vector<double>, 3> slopes;  // at the cut-off, twice and four times that
-  parallel_for(slopes.size(), x.size() < kMany ? 1 : 0, [&](std::size_t k) {
+  parallel_for(slopes.size(), x.size() < kThreadsPay ? 1 : 0, [&](std::size_t k) {
     slopes[k] = differentiate_zero_phase(x, dt, static_cast<double>(1 << k) * cutoff_hz);
   });
   auto& [low, middle, high] = slopes;
