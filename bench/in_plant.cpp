@@ -4,6 +4,9 @@
 //   bench_in_plant black train.csv    the same, no law named
 //   bench_in_plant car MODEL...       a virtual quarter car whose damper is of another structure
 //   bench_in_plant minute LAW...      the same over 60 s, three numbers of the plant unknown
+//   bench_in_plant stands|late|filtered MODEL...   the same behind 8 s of standing; on a road that
+//   is
+//                                     10 ms late; with sensors behind low-pass filters
 //   bench_in_plant unmeasured TRUTH CLASS SECONDS LAW...   the same on a road that nothing measures
 //   bench_in_plant named TRUTH CLASS SECONDS SEED LAW...   there, what the laws are listed by
 //   bench_in_plant cover REPETITIONS TRUTH CLASS SECONDS LAW, sensors TRUTH CLASS SECONDS LAW,
@@ -13,6 +16,7 @@
 #include "dashpot/machine/in_plant.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -22,12 +26,14 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/machine/duhem_law.h"
 #include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/virtual_recording.h"
+#include "dashpot/numerics/filter.h"
 #include "dashpot/simulate.h"
 #include "dashpot/vehicle.h"
 #include "without_road.h"
@@ -217,7 +223,53 @@ double force_error(const InPlantReport& report, bool is_minute) {
   return 100 * std::sqrt(squares / count) / (high - low);
 }
 
-void run_car(const std::vector<std::string>& models, bool is_minute) {
+/// From rest, so that what comes out is late.
+void pass_through(const std::vector<Biquad>& sections, std::vector<double>& samples) {
+  for (const Biquad& one : sections) {
+    double first = 0, second = 0;
+    for (double& sample : samples) {
+      const double out = one.b0 * sample + first;
+      first = one.b1 * sample - one.a1 * out + second;
+      second = one.b2 * sample - one.a2 * out;
+      sample = out;
+    }
+  }
+}
+
+/// The ride as a logger has it that was started while the car stood, whose road comes late, or
+/// whose sensors are behind filters.
+PlantRecording tampered(PlantRecording recording, const std::string& how) {
+  constexpr std::size_t kStands = 4000, kLate = 5;          // samples
+  constexpr double kAccelerations = 50, kDeflections = 30;  // Hz
+  Random random(3);
+  for (Channel& channel : recording.channels) {
+    std::vector<double>& samples = channel.samples;
+    const bool is_road = channel.name == "tyre_road", is_current = channel.unit == "V";
+    if (how == "stands") {
+      const double noise = is_current ? 0 : channel.unit == "m" ? 0.0002 : 0.05;
+      std::vector<double> still;
+      for (std::size_t k = 0; k < kStands; ++k)
+        still.push_back(samples.front() + noise * random.normal());
+      samples.insert(samples.begin(), still.begin(), still.end());
+    }
+    if (how == "late" && is_road)
+      std::copy_backward(samples.begin(), samples.end() - kLate, samples.end());
+    if (how == "filtered" && !is_road && !is_current) {
+      const double level = samples.front();
+      for (double& sample : samples) sample -= level;
+      pass_through(butterworth_lowpass(2, channel.unit == "m" ? kDeflections : kAccelerations,
+                                       recording.sample_time),
+                   samples);
+      for (double& sample : samples) sample += level;
+    }
+  }
+  recording.samples = recording.channels.front().samples.size();
+  return recording;
+}
+
+void run_car(const std::vector<std::string>& models, const std::string& how) {
+  const bool is_minute = how == "minute";
+
   // Three rides at three voltages; road, two accelerations and the deflection are measured.
   std::vector<PlantRecording> recordings;
   for (std::size_t k = 0; k < kVoltages.size(); ++k) {
@@ -229,6 +281,7 @@ void run_car(const std::vector<std::string>& models, bool is_minute) {
          {"suspension_deflection", 0.0002},
          {"suspension_current", 0}},
         11 + k));
+    recordings.back() = tampered(std::move(recordings.back()), how);
     recordings.back().name = fmt::format("{} V", kVoltages[k]);
   }
 
@@ -271,8 +324,9 @@ void run_car(const std::vector<std::string>& models, bool is_minute) {
 
 int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
-  if (words.size() > 1 && (words[0] == "car" || words[0] == "minute")) {
-    run_car({words.begin() + 1, words.end()}, words[0] == "minute");
+  constexpr std::array kCars{"car", "minute", "stands", "late", "filtered"};
+  if (words.size() > 1 && std::ranges::find(kCars, words[0]) != kCars.end()) {
+    run_car({words.begin() + 1, words.end()}, words[0]);
   } else if (words.size() == 2 && (words[0] == "grey" || words[0] == "black")) {
     run_benchmark(words[0] == "grey", words[1]);
   } else if (!run_without_road(words)) {
