@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "dashpot/base/parallel.h"
@@ -24,6 +25,7 @@
 #include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/without_road.h"
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
@@ -445,6 +447,57 @@ bool goes_by_leaps(const LeastSquaresProblem& problem, const LeastSquaresReport&
   return leaps;
 }
 
+/// The setup with the delays that it does not state among the unknowns.
+InPlantSetup with_delays_unknown(InPlantSetup setup) {
+  for (PlantSensor& sensor : setup.sensors) sensor.finds_delay |= sensor.delay == 0;
+  return setup;
+}
+
+/// The share of the misfit at x that would go, to first order, if the delays were unknown too that
+/// the plant does not state; 0 where it asks for some, or states all.
+double gain_by_delays(const EndedFit& fit, int threads) {
+  InPlantSetup beside = with_delays_unknown(fit.setup);
+  const auto asks = [](const PlantSensor& sensor) { return sensor.finds_delay; };
+  if (std::ranges::any_of(fit.setup.sensors, asks) || std::ranges::none_of(beside.sensors, asks))
+    return 0;
+  for (std::size_t s = 0; s < beside.sensors.size(); ++s)
+    beside.sensors[s].noise = fit.residuals.scale_of(s);
+  const PlantResiduals residuals(beside, fit.cases, fit.law, fit.plant_start, fit.scale);
+
+  // Residuals and columns, those of the delays behind the others.
+  std::vector<double> x = fit.solved.x;
+  const std::size_t others = x.size();
+  x.resize(others + static_cast<std::size_t>(std::ranges::count_if(beside.sensors, asks)), 0.0);
+  const LeastSquaresProblem problem = residuals.problem(0, threads);
+  std::vector<double> r(problem.residuals);
+  std::vector<std::vector<double>> columns(x.size(), r);
+  std::vector<double*> places;
+  for (std::vector<double>& column : columns) places.push_back(column.data());
+  if (!problem.jacobian(x, r, places)) return 0;
+
+  // What the best step would take off, with so many of the columns.
+  const auto along = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  const double misfit = along(r, r);
+  const auto gain_of = [&](std::size_t n) {
+    std::vector<double> matrix(n * n), slope(n), size(n);
+    parallel_for(n, threads, [&](std::size_t i) {
+      slope[i] = along(columns[i], r);
+      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = along(columns[i], columns[k]);
+    });
+    constexpr double kTrace = 1e-9;
+    for (std::size_t i = 0; i < n; ++i) size[i] = std::sqrt(std::max(matrix[i * (n + 1)], 1e-300));
+    for (std::size_t i = 0; i < n; ++i) {
+      slope[i] /= size[i];
+      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] /= size[i] * size[k];
+      matrix[i * (n + 1)] += kTrace;
+    }
+    return along(slope, solve(matrix, slope));
+  };
+  return (gain_of(x.size()) - gain_of(others)) / misfit;
+}
+
 /// For where sensitivities are leaps, or the model so far off that what is left is no chance.
 void drop_intervals(InPlantReport& report) {
   for (auto* list : {&report.plant, &report.damper, &report.nuisances})
@@ -453,9 +506,10 @@ void drop_intervals(InPlantReport& report) {
 }
 
 /// The fit of what is measured, from the best of the starts. No model where the plant diverges.
+/// is_late: whether delays that the plant does not state may take off much of what is left.
 InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                               const std::vector<PlantRecording>& recordings,
-                              const InPlantOptions& options) {
+                              const InPlantOptions& options, bool& is_late) {
   const double started = cpu_seconds();
   InPlantReport report;
 
@@ -551,6 +605,10 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
     }
   }
 
+  constexpr double kWorthATry = 0.1;
+  is_late = gain_by_delays({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
+                           options.threads) > kWorthATry;
+
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));
   residuals.describe(solved.x, report.sensors, report.traces, options.threads);
@@ -569,13 +627,13 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
 /// The same, from more places where the plant diverges from all of the first ones.
 InPlantReport fit_somehow(const Law& law, const InPlantSetup& setup,
                           const std::vector<PlantRecording>& recordings,
-                          const InPlantOptions& options) {
+                          const InPlantOptions& options, bool& is_late) {
   constexpr int kMoreStarts = 4;
-  InPlantReport report = fit_from_starts(law, setup, recordings, options);
+  InPlantReport report = fit_from_starts(law, setup, recordings, options, is_late);
   if (report.model) return report;
   InPlantOptions wider = options;
   wider.starts *= kMoreStarts;
-  return fit_from_starts(law, setup, recordings, wider);
+  return fit_from_starts(law, setup, recordings, wider, is_late);
 }
 
 /// Power of what is left at the sensors over that of what they showed, on the time that was fitted.
@@ -586,23 +644,20 @@ double share_left(const InPlantReport& report) {
   return sum;
 }
 
-/// Once more with the delays that the plant does not state among the unknowns, where a sensor seems
-/// late, or none is met and a late input may be why. Taken where that leaves clearly less.
+/// Once more with the delays that the plant does not state among the unknowns. Taken where that
+/// leaves clearly less.
 InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
                                 const std::vector<PlantRecording>& recordings,
                                 const InPlantOptions& options, InPlantReport as_stated) {
-  constexpr double kClearly = 0.7;
-  if (!seems_late(setup, as_stated.traces) && !is_far_off(setup, as_stated.traces))
-    return as_stated;
-  InPlantSetup beside = setup;
+  constexpr double kClearly = 0.5;
+  const InPlantSetup beside = with_delays_unknown(setup);
   std::vector<std::string> freed;
-  for (PlantSensor& sensor : beside.sensors) {
-    if (sensor.finds_delay || sensor.delay != 0) continue;
-    sensor.finds_delay = true;
-    freed.push_back("delay of " + sensor.channel);
-  }
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    if (beside.sensors[s].finds_delay && !setup.sensors[s].finds_delay)
+      freed.push_back("delay of " + setup.sensors[s].channel);
   if (freed.empty()) return as_stated;
-  InPlantReport report = fit_somehow(law, beside, recordings, options);
+  bool is_late = false;
+  InPlantReport report = fit_somehow(law, beside, recordings, options, is_late);
   if (!report.model || !(share_left(report) < kClearly * share_left(as_stated))) return as_stated;
 
   // What was found.
@@ -632,8 +687,11 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
   if (unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
 
-  InPlantReport report = fit_somehow(law, setup, recordings, options);
-  if (report.model) report = fit_beside_delays(law, setup, recordings, options, std::move(report));
+  bool is_late = false;
+  InPlantReport report = fit_somehow(law, setup, recordings, options, is_late);
+  if (report.model &&
+      (is_late || seems_late(setup, report.traces) || is_far_off(setup, report.traces)))
+    report = fit_beside_delays(law, setup, recordings, options, std::move(report));
   report.seconds = cpu_seconds() - started;
   return report;
 }
