@@ -454,26 +454,33 @@ InPlantSetup with_delays_unknown(InPlantSetup setup) {
 }
 
 /// The share of the misfit at x that would go, to first order, if the delays were unknown too that
-/// the plant does not state; 0 where it asks for some, or states all.
-double gain_by_delays(const EndedFit& fit, int threads) {
+/// the plant does not state; 0 where it asks for some, or states all. whole: the problem at its
+/// end.
+double gain_by_delays(const EndedFit& fit, const LeastSquaresProblem& whole, int threads) {
+  constexpr double kLater = 1e-4;  // s
   InPlantSetup beside = with_delays_unknown(fit.setup);
   const auto asks = [](const PlantSensor& sensor) { return sensor.finds_delay; };
   if (std::ranges::any_of(fit.setup.sensors, asks) || std::ranges::none_of(beside.sensors, asks))
     return 0;
-  for (std::size_t s = 0; s < beside.sensors.size(); ++s)
-    beside.sensors[s].noise = fit.residuals.scale_of(s);
-  const PlantResiduals residuals(beside, fit.cases, fit.law, fit.plant_start, fit.scale);
 
   // Residuals and columns, those of the delays behind the others.
-  std::vector<double> x = fit.solved.x;
+  std::vector<double> x = fit.solved.x, r(whole.residuals);
   const std::size_t others = x.size();
-  x.resize(others + static_cast<std::size_t>(std::ranges::count_if(beside.sensors, asks)), 0.0);
-  const LeastSquaresProblem problem = residuals.problem(0, threads);
-  std::vector<double> r(problem.residuals);
-  std::vector<std::vector<double>> columns(x.size(), r);
+  std::vector<std::vector<double>> columns(others, r);
   std::vector<double*> places;
   for (std::vector<double>& column : columns) places.push_back(column.data());
-  if (!problem.jacobian(x, r, places)) return 0;
+  if (!whole.jacobian(x, r, places)) return 0;
+  for (std::size_t s = 0; s < beside.sensors.size(); ++s) {
+    if (!asks(beside.sensors[s])) continue;
+    InPlantSetup late = fit.setup;
+    for (std::size_t k = 0; k < late.sensors.size(); ++k)
+      late.sensors[k].noise = fit.residuals.scale_of(k);
+    late.sensors[s].delay = kLater;
+    const PlantResiduals residuals(late, fit.cases, fit.law, fit.plant_start, fit.scale);
+    columns.push_back(r);
+    if (!residuals.problem(0, threads).residual(x, columns.back())) return 0;
+    for (std::size_t i = 0; i < r.size(); ++i) columns.back()[i] -= r[i];
+  }
 
   // What the best step would take off, with so many of the columns.
   const auto along = [](const std::vector<double>& a, const std::vector<double>& b) {
@@ -495,7 +502,7 @@ double gain_by_delays(const EndedFit& fit, int threads) {
     }
     return along(slope, solve(matrix, slope));
   };
-  return (gain_of(x.size()) - gain_of(others)) / misfit;
+  return (gain_of(columns.size()) - gain_of(others)) / misfit;
 }
 
 /// For where sensitivities are leaps, or the model so far off that what is left is no chance.
@@ -589,10 +596,9 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   cases = beside.cases;
 
   // What would help.
+  const LeastSquaresProblem whole = residuals.problem(0, options.threads);
   if (!options.grade.empty() && !leaps) {
-    if (!beside.noise.empty())
-      solved = describe_at(residuals.problem(0, options.threads), solved.x,
-                           {.threads = options.threads});
+    if (!beside.noise.empty()) solved = describe_at(whole, solved.x, {.threads = options.threads});
     if (is_finite()) {
       std::vector<ParameterProfile> profiles = std::move(report.advice.profiles);
       report.advice = advise({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
@@ -607,7 +613,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
 
   constexpr double kWorthATry = 0.1;
   is_late = gain_by_delays({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
-                           options.threads) > kWorthATry;
+                           whole, options.threads) > kWorthATry;
 
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));
