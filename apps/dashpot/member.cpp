@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 #include <fmt/core.h>
@@ -14,13 +15,15 @@
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/model_file.h"
 #include "dashpot/physics/damper_description.h"
+#include "document_text.h"
 #include "layout.h"
+#include "member_in_plant.h"
 
 namespace dashpot::cli {
 namespace {
 
 struct MemberSettings {
-  std::string model, damper, outside_family = "mark", output;
+  std::string model, damper, plant, outside_family = "mark", output;
   std::vector<std::string> changes, recordings;
 };
 
@@ -36,7 +39,11 @@ constexpr std::string_view kMemberExample =
     "\n"
     "# A build that was recorded: a few cycles at one current make the rest its own:\n"
     "dashpot member results/models/family_physics.json --damper my_damper.yaml --recording "
-    "short_test.csv -o build.json";
+    "short_test.csv -o build.json\n"
+    "\n"
+    "# The same from a drive of the car that it works in, whose numbers are not all known:\n"
+    "dashpot member results/models/family_physics.json --damper my_damper.yaml --recording "
+    "drive.csv --in car.yaml -o build.json";
 
 Conditions changes_of(const MemberSettings& settings) {
   Conditions conditions;
@@ -134,16 +141,10 @@ std::string table_of(const FamilyModel& model, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-/// The member as its recordings say that it was built.
-BuildReport measured(const FamilyModel& member, const ModelFile& family,
-                     const MemberSettings& settings, Console& console) {
-  const Dataset data = load_dataset({settings.recordings.begin(), settings.recordings.end()});
-  const std::string names = join(settings.recordings, ", ");
-  for (const std::string& note : data.notes) console.note(note);
-  require_same_drive(family, data, names);
-  for (const Extrapolation& beyond : extrapolations(family, data)) console.warn(describe(beyond));
-  BuildReport report = measure_build(member, data.records, data.drive_unit);
-
+/// How the build differs from its drawing, and whether it can be one of it. by: what told it; such
+/// forces: of what.
+void print_build(const BuildReport& report, const std::string& by, bool is_drive,
+                 Console& console) {
   Table table({"this build", ">from its drawing", ">builds differ by", ">known to"});
   for (const BuildReport::Deviation& one : report.deviations) {
     const bool newtons = &one == &report.deviations.back();
@@ -153,22 +154,44 @@ BuildReport measured(const FamilyModel& member, const ModelFile& family,
     table.row({one.name, text(one.value), text(one.spread), text(one.left)});
   }
   console.print('\n' + table.text(static_cast<std::size_t>(console.width())) +
-                fmt::format("On its recording the family leaves {} % of the force's power, this "
-                            "build {} %.\n",
+                fmt::format("{} the family leaves {} % of the force's power, this build {} %.\n",
+                            is_drive ? "As the sensors tell the force," : "On its recording",
                             format_number(report.esr_before, 3),
                             format_number(report.esr_after, 3)));
+  const std::string of_another = std::string("a ") + (is_drive ? "drive with" : "recording of") +
+                                 " another damper, or a drawing that is not this damper's";
   if (!report.is_likely())
     console.warn(fmt::format(
-        "{}: not one build in a hundred lies so far from its drawing ({} standard deviations): a "
-        "recording of another damper, or a drawing that is not this damper's",
-        names, format_number(std::sqrt(report.distance), 3)));
+        "{}: not one build in a hundred lies so far from its drawing ({} standard deviations): {}",
+        by, format_number(std::sqrt(report.distance), 3), of_another));
   else if (!report.is_told())
     console.warn(fmt::format(
-        "{}: what this build leaves is {} times what the family usually leaves of a recording, so "
-        "that it says nothing of the build: a recording of another damper, or a drawing that is "
-        "not this damper's",
-        names, format_number(report.left_of_usual, 3)));
+        "{}: what this build leaves is {} times what the family usually leaves of a recording{}{}",
+        by, format_number(report.left_of_usual, 3),
+        is_drive ? ": motions that it has not learnt from, "
+                 : ", so that it says nothing of the build: ",
+        of_another));
+}
+
+/// The member as its recordings on a bench say that it was built.
+BuildReport measured(const FamilyModel& member, const ModelFile& family,
+                     const MemberSettings& settings, Console& console) {
+  const Dataset data = load_dataset({settings.recordings.begin(), settings.recordings.end()});
+  const std::string names = join(settings.recordings, ", ");
+  for (const std::string& note : data.notes) console.note(note);
+  require_same_drive(family, data, names);
+  for (const Extrapolation& beyond : extrapolations(family, data)) console.warn(describe(beyond));
+  BuildReport report = measure_build(member, data.records, data.drive_unit);
+  print_build(report, names, false, console);
   return report;
+}
+
+/// What was found of the noise of sensors that state none, for observers.
+std::vector<FoundNoise> noise_of(const InPlantReport& report) {
+  std::vector<FoundNoise> found;
+  std::ranges::copy_if(report.noise, std::back_inserter(found),
+                       [](const FoundNoise& one) { return one.deviation > 0; });
+  return found;
 }
 
 int run_member(const MemberSettings& settings, Console& console) {
@@ -195,7 +218,19 @@ int run_member(const MemberSettings& settings, Console& console) {
                               {"outside_family", Value::array(outside)},
                               {"output", settings.output}});
   if (!settings.recordings.empty()) {
-    const BuildReport report = measured(*member, file, settings, console);
+    BuildReport report;
+    if (settings.plant.empty()) {
+      report = measured(*member, file, settings, console);
+    } else {
+      MemberInPlant found = build_from_drive(
+          *member, file, {settings.plant, settings.model, settings.recordings}, console);
+      print_document(found.document, console);
+      if (!found.build.found.model) return kNotUsable;
+      report = std::move(found.build.build);
+      print_build(report, join(settings.recordings, ", "), true, console);
+      json.add("in_plant", document_json(found.document));
+      file.noise_found = noise_of(found.build.found);
+    }
     member = report.model;
     Value build = Value::object();
     for (const BuildReport::Deviation& one : report.deviations)
@@ -250,6 +285,16 @@ Command member_command() {
                            "what they say, as far as builds differ",
                    .value = "FILE",
                    .takes = Takes::File},
+
+                  {.names = "--in",
+                   .target = &settings->plant,
+                   .help = "the recordings are of a plant in which this damper works: a YAML file "
+                           "or words (docs/in-plant.md); the build is found with what is unknown "
+                           "of it",
+                   .value = "PLANT",
+                   .takes = Takes::File,
+                   .default_text = "a bench that measures the force",
+                   .needs = "--recording"},
 
                   // The limits of the family, and where the model goes.
                   {.names = "--outside-family",

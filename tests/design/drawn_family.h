@@ -47,10 +47,9 @@ inline std::vector<DrawingTest> drawn_family_tests() {
   return tests;
 }
 
-/// Every test of one build of a drawing, from rest at the lower end.
-inline std::vector<Record> recorded_drawing(const DrawnFamily& family, DamperDescription drawing,
-                                            Random& random) {
-  constexpr int kOfCycle = 40, kSamples = 60, kParts = 10;
+/// A build of a drawing.
+inline DrawnDamper built_drawing(const DrawnFamily& family, DamperDescription drawing,
+                                 Random& random) {
   constexpr double kFriction = 15, kLean = 0.15, kIndex = 0.7, kRate = 1000;
   double largest = 0;
   for (const DrawingTest& test : family.tests) largest = std::max(largest, test.current);
@@ -65,9 +64,15 @@ inline std::vector<Record> recorded_drawing(const DrawnFamily& family, DamperDes
     drawing.fluid = fluid;
   }
   const double strength = chance();
-  const DrawnDamper damper(
+  return DrawnDamper(
       drawing, {strength, kFriction * chance(), stiffness, family.leans ? kLean : 0.}, largest);
+}
 
+/// Every test of such a build, from rest at the lower end.
+inline std::vector<Record> recorded_build(const DrawnFamily& family,
+                                          const DamperDescription& drawing,
+                                          const DrawnDamper& damper, Random& random) {
+  constexpr int kOfCycle = 40, kSamples = 60, kParts = 10;
   std::vector<Record> records;
   for (const DrawingTest& test : family.tests) {
     const FamilyMember member = member_of(drawing, std::vector{test.current});
@@ -108,6 +113,12 @@ inline std::vector<Record> recorded_drawing(const DrawnFamily& family, DamperDes
     records.push_back(std::move(record));
   }
   return records;
+}
+
+/// The same of a build of its own.
+inline std::vector<Record> recorded_drawing(const DrawnFamily& family,
+                                            const DamperDescription& drawing, Random& random) {
+  return recorded_build(family, drawing, built_drawing(family, drawing, random), random);
 }
 
 inline std::shared_ptr<const FamilyModel> fitted_drawings(const std::vector<Record>& records) {

@@ -70,6 +70,25 @@ double DrawnDamper::force(const DamperInput& input, std::span<const double> stat
          member_.spring_stiffness * input.displacement + offset_;
 }
 
+double DrawnDamper::flow(const DamperInput& input, std::span<const double> state,
+                         std::span<double> rates) const noexcept {
+  constexpr double kFlowTolerance = 1e-9;
+  const double size = std::abs(state[0]), side = state[0] < 0 ? -1 : 1;
+  const auto excess = [&](double speed) {
+    return (1 + side * build_.asymmetry) * flow_force(speed, input.current) - size;
+  };
+
+  // The speed at which the flow resists as the spring pulls; none before it yields.
+  double speed = 0;
+  if (const double still = excess(0); still < 0) {
+    double most = 1e-3;
+    while (excess(most) < 0) most *= 2;
+    speed = find_root(excess, {0, still}, {most, excess(most)}, kFlowTolerance * size);
+  }
+  rates[0] = build_.stiffness * (input.velocity - side * speed);
+  return force(input, state);
+}
+
 std::unique_ptr<DamperModel> DrawnDamper::with_offset(double newton) const {
   auto moved = std::make_unique<DrawnDamper>(*this);
   moved->offset_ += newton;

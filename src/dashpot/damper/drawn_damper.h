@@ -33,6 +33,9 @@ class DrawnDamper final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  bool flows() const noexcept override { return true; }
+  double flow(const DamperInput& input, std::span<const double> state,
+              std::span<double> rates) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
 

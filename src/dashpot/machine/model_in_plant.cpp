@@ -362,4 +362,13 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   return fits;
 }
 
+std::vector<Record> bench_records_along(const InPlantReport& fit, const InPlantSetup& stated,
+                                        const std::vector<PlantRecording>& recordings,
+                                        const InPlantOptions& options) {
+  const InPlantSetup setup = with_delays_found(with_noise_found(stated, fit), fit);
+  const std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
+  return as_bench_records(setup, fitted,
+                          observe_beside_force(as_found(setup, fit), fitted, fit.traces, options));
+}
+
 }  // namespace dashpot

@@ -5,6 +5,7 @@
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/plant_recording.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 
@@ -46,5 +47,11 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
                                           const std::vector<PlantRecording>& recordings,
                                           const InPlantOptions& options,
                                           PlantFitStore* store = nullptr);
+
+/// What the sensors tell of the damper's motion and force along a fit that found a model, as a
+/// bench would have recorded them: of the time that was fitted. `recordings` as that fit had them.
+std::vector<Record> bench_records_along(const InPlantReport& fit, const InPlantSetup& setup,
+                                        const std::vector<PlantRecording>& recordings,
+                                        const InPlantOptions& options);
 
 }  // namespace dashpot

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/physics_family.h"
@@ -55,18 +56,30 @@ std::vector<FamilyRecord> records_of_build(const FamilyModel& member,
   return records;
 }
 
-}  // namespace
-
-BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& recordings,
-                          DriveUnit drive_unit) {
+/// The family's numbers. Throws Error where it does not know its builds, or the build is stated.
+const FamilyPhysics& physics_of(const FamilyModel& member) {
   const auto* force = dynamic_cast<const PhysicsFamily*>(member.family().force.get());
   if (!force || !(force->physics().record_error > 0))
     throw Error(member.name(), "does not know how builds of a drawing differ",
                 "a family_physics of two designs or more");
+  if (member.member().build != 0)
+    throw Error(member.name(),
+                "is to be a build of " + format_number(member.member().build) +
+                    " standard deviations, and the recordings tell which build it is",
+                "leave 'build' out");
+  return force->physics();
+}
+
+}  // namespace
+
+void require_builds(const FamilyModel& member) { physics_of(member); }
+
+BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& recordings,
+                          DriveUnit drive_unit, ForceZero zero) {
+  FamilyPhysics physics = physics_of(member);
   const std::vector<FamilyRecord> records = records_of_build(member, recordings, drive_unit);
 
   // What is expected of a build: the inverse covariance of its deviations.
-  FamilyPhysics physics = force->physics();
   const std::vector<double> covariance = physics.deviation_covariance();
   const std::vector<double> precise = inverse(covariance, kBuildNumbers);
   BuildMatrix precision;
@@ -96,8 +109,16 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
     for (std::size_t n = 0; n < records.size(); ++n) {
       const std::vector<double> modelled =
           run_family_physics(built, records[n].member, records[n].inputs, records[n].time);
-      for (std::size_t k = records[n].first; k < modelled.size(); ++k)
-        r[at++] = weight[n] * (modelled[k] + member.offset() - records[n].force[k]);
+      const std::span<double> own = r.subspan(at, modelled.size() - records[n].first);
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        const std::size_t sample = records[n].first + k;
+        own[k] = weight[n] * (modelled[sample] + member.offset() - records[n].force[sample]);
+      }
+      at += own.size();
+      if (zero == ForceZero::LoadCell) continue;
+      const double mean =
+          std::accumulate(own.begin(), own.end(), 0.) / static_cast<double>(own.size());
+      for (double& residual : own) residual -= mean;
     }
     for (std::size_t i = 0; i < kBuildNumbers; ++i) {
       double whitened = 0;
@@ -112,9 +133,10 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
   std::ranges::copy(solved.x, physics.deviation.begin());
 
   // How far the build lies from its drawing, in the spread that left-out dampers had.
-  constexpr double kOneInHundred = 13.277;  // of chi squared with four degrees of freedom
+  constexpr double kOneInHundred = 13.277;   // of chi squared with four degrees of freedom
+  constexpr double kWithoutOffset = 11.345;  // with three
   BuildReport report;
-  report.unlikely = kOneInHundred;
+  report.unlikely = zero == ForceZero::LoadCell ? kOneInHundred : kWithoutOffset;
   const std::vector<double> left =
       solved.normal_matrix.empty() ? covariance : inverse(solved.normal_matrix, kBuildNumbers);
   for (std::size_t i = 0; i < kBuildNumbers; ++i) {
@@ -135,7 +157,8 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
   family->drawing_spread = 0;
   report.model = std::make_shared<FamilyModel>(family, member.member(), member.offset());
   const auto esr = [&](const FamilyModel& model) {
-    return evaluate(model, recordings, drive_unit, {.offset = OffsetMode::None}).pooled.esr;
+    const OffsetMode offset = zero == ForceZero::LoadCell ? OffsetMode::None : OffsetMode::Record;
+    return evaluate(model, recordings, drive_unit, {.offset = offset}).pooled.esr;
   };
   report.esr_before = esr(member);
   report.esr_after = esr(*report.model);

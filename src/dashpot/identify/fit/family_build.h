@@ -31,12 +31,23 @@ struct BuildReport {
   bool is_told() const { return left_of_usual <= 2.58; }
 };
 
+/// Where the forces of recordings are counted from.
+enum class ForceZero {
+  LoadCell,  ///< from nothing: what the damper has at rest is a part of the build
+  Anywhere   ///< each recording from a force of its own, as in a plant whose springs bear that
+};
+
+/// Throws Error where the family does not know how builds of a drawing differ, and where the member
+/// states its build.
+void require_builds(const FamilyModel& member);
+
 /// The member as its recordings, a few cycles or more, say that it was built: the most probable
 /// deviations, given those of dampers that the family's fit had left out, each record with what is
-/// known of a record's model error. Other currents and speeds follow by the family. Throws Error
-/// where the family knows no builds, or the records are of several dampers or of another than the
-/// member.
+/// known of a record's model error. Other currents and speeds follow by the family. Where forces
+/// are counted from anywhere, the offset of the build is what goes with the rest of it. Throws
+/// Error where the family knows no builds, or the records are of several dampers or of another than
+/// the member.
 BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& recordings,
-                          DriveUnit drive_unit);
+                          DriveUnit drive_unit, ForceZero zero = ForceZero::LoadCell);
 
 }  // namespace dashpot

@@ -196,10 +196,15 @@ FamilyPhysics::Numbers FamilyPhysics::priors() noexcept {
   return numbers;
 }
 
-FamilyPhysics::Element FamilyPhysics::element(const FamilyMember& m,
+FamilyPhysics::Element FamilyPhysics::element(const FamilyMember& member,
+                                              double current) const noexcept {
+  return element(member, deviation, current);
+}
+
+FamilyPhysics::Element FamilyPhysics::element(const FamilyMember& m, const Deviation& build,
                                               double current) const noexcept {
   const PhysicsMember member = drawing_of(m);
-  return physics_element(&reference, numbers.data(), deviation.data(), &member, m.yield.at(current),
+  return physics_element(&reference, numbers.data(), build.data(), &member, m.yield.at(current),
                          current);
 }
 

@@ -61,6 +61,9 @@ struct FamilyPhysics {
   /// What one damper at one current comes to.
   using Element = PhysicsElement;
   Element element(const FamilyMember& member, double current) const noexcept;
+  /// The same of another build.
+  Element element(const FamilyMember& member, const Deviation& build,
+                  double current) const noexcept;
   /// The numbers without data.
   static Numbers priors() noexcept;
   static std::span<const PhysicsNumber, kPhysicsNumbers> table();
