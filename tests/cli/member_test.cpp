@@ -51,6 +51,13 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
   CHECK(contains(run_dashpot("member " + family + " --set gap=1.2").output,
                  "--set: gap is 1.2 m; 5e-05 ... 0.01 m"));
 
+  // A drive of a plant needs a recording, and a family that knows its builds before that is read.
+  const std::string plant =
+      " --in oscillator,mass=2kg,stiffness=4N/mm,force=push,displacement=x,current=0.5A";
+  CHECK(contains(run_dashpot("member " + family + plant).output, "--recording"));
+  CHECK(contains(run_dashpot("member " + family + " --recording none.csv" + plant).output,
+                 "does not know how builds of a drawing differ"));
+
   // Only a family that knows how builds differ can take a recording of one.
   const std::string recording =
       folder
