@@ -105,8 +105,7 @@ BuildInPlant identify_build_in_plant(const FamilyModel& member, const InPlantSet
 
   // What the drive alone tells of it, and what it does not.
   result.found.damper = result.free.damper;
-  for (FittedParameter& p : result.found.damper)
-    p.meaning = "ln over the mean build's, as the drive alone tells it";
+  for (FittedParameter& p : result.found.damper) p.meaning = "ln, by the drive alone";
   std::ranges::move(untold(result.free, builds.spreads()),
                     std::back_inserter(result.found.warnings));
   if (worst_held_back(result.found) > worst_held_back(result.mean))
