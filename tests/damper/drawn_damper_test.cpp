@@ -41,6 +41,22 @@ TEST_CASE("a drawn damper comes to the force of its physics, in either direction
   }
 }
 
+TEST_CASE("a drawn damper's rates lead to where its steps do") {
+  const DamperDescription drawing = parse_description("fluid: 132DG\nname: d\n", "d.yaml");
+  const DrawnDamper damper(drawing, {.friction = 20, .stiffness = 1e6, .asymmetry = 0.2}, 2);
+  constexpr double kStep = 1e-6;
+  for (const double speed : {0.1, -0.1}) {
+    const DamperInput input{0, speed, 1};
+    std::vector<double> stepped(1), flown(1), rates(1);
+    for (int k = 0; k < 3000; ++k) {
+      damper.advance(input, input, kStep, stepped);
+      CHECK(damper.flow(input, flown, rates) == damper.force(input, flown));
+      flown[0] += kStep * rates[0];
+    }
+    CHECK_CLOSE(flown[0], stepped[0], 1e-3, 0);
+  }
+}
+
 TEST_CASE("before its fluid yields a drawn damper is its spring; what cannot be built is refused") {
   const DamperDescription drawing = parse_description("name: d\n", "d.yaml");
   const DrawnDamper damper(drawing, {.stiffness = 1e6}, 2);

@@ -57,6 +57,24 @@ TEST_CASE("one recording without current makes a build's other currents and spee
   CHECK(esr(*report.model) < 0.5 * esr(*member));
 }
 
+TEST_CASE("a build is told by forces that are counted from anywhere") {
+  const auto family = fitted_family();
+  std::vector<Record> records = recorded_build(1.12);
+  const auto member =
+      std::dynamic_pointer_cast<const FamilyModel>(family->specialised(records.front().conditions));
+  const auto told = [&] {
+    return measure_build(*member, records, DriveUnit::Ampere, ForceZero::Anywhere);
+  };
+  const BuildReport before = told();
+  for (std::size_t k = 0; k < records.size(); ++k)
+    for (double& value : records[k].find("force")->samples) value += 50. * static_cast<double>(k);
+  const BuildReport moved = told();
+  CHECK(before.is_likely());
+  CHECK(before.deviations[0].value + before.deviations[1].value > 0.06);
+  for (std::size_t k = 0; k < before.deviations.size(); ++k)
+    CHECK_CLOSE(moved.deviations[k].value, before.deviations[k].value, 1e-3, 1e-4);
+}
+
 TEST_CASE("a recording of another damper is told from one of a build") {
   const auto family = fitted_family();
   const std::vector<Record> twice = recorded_build(2);

@@ -32,6 +32,10 @@ BuildMatrix lower_factor(const BuildMatrix& matrix) {
   return factor;
 }
 
+double mean_of(std::span<const double> samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.) / static_cast<double>(samples.size());
+}
+
 /// The recordings as records of this member, whose conditions they may state again.
 std::vector<FamilyRecord> records_of_build(const FamilyModel& member,
                                            const std::vector<Record>& recordings,
@@ -90,10 +94,11 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
   LeastSquaresProblem problem;
   std::vector<double> weight;
   for (const FamilyRecord& record : records) {
+    const std::span<const double> force_of = std::span(record.force).subspan(record.first);
+    const std::size_t count = force_of.size();
+    const double from = zero == ForceZero::LoadCell ? 0 : mean_of(force_of);
     double square = 0;
-    const std::size_t count = record.force.size() - record.first;
-    for (std::size_t k = record.first; k < record.force.size(); ++k)
-      square += record.force[k] * record.force[k];
+    for (const double sample : force_of) square += (sample - from) * (sample - from);
     weight.push_back(
         1 / (physics.record_error * std::max(std::sqrt(square), 1e-3 * physics.reference.force)));
     problem.residuals += count;
@@ -116,8 +121,7 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
       }
       at += own.size();
       if (zero == ForceZero::LoadCell) continue;
-      const double mean =
-          std::accumulate(own.begin(), own.end(), 0.) / static_cast<double>(own.size());
+      const double mean = mean_of(own);
       for (double& residual : own) residual -= mean;
     }
     for (std::size_t i = 0; i < kBuildNumbers; ++i) {
