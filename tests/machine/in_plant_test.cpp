@@ -220,6 +220,30 @@ TEST_CASE("in plant: what comes late is found out unasked, and the mass with it"
         stated.nuisances.end());
 }
 
+TEST_CASE("in plant: a sensor behind a filter that the plant states" *
+          doctest::test_suite("long")) {
+  // Of the second order at 30 Hz, in steps of a tenth of a sample.
+  constexpr int kFiner = 10;
+  constexpr double kCutoff = 2 * std::numbers::pi * 30;
+  PlantRecording recording = short_recording();
+  const double step = recording.sample_time / kFiner;
+  const FinerSignal finer =
+      band_limited(recording.channels[1].samples, recording.sample_time, kFiner);
+  double out = finer.value.front(), rate = 0;
+  for (std::size_t k = 0; k < finer.value.size(); ++k) {
+    if (k % kFiner == 0) recording.channels[1].samples[k / kFiner] = out;
+    rate += step * kCutoff * (kCutoff * (finer.value[k] - out) - std::numbers::sqrt2 * rate);
+    out += step * rate;
+  }
+  InPlantSetup setup = oscillator_setup();
+  setup.sensors[0].filter = {30, 2};
+  const InPlantReport report =
+      identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 6, .grade = ""});
+  REQUIRE(report.model);
+  CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.01, 0);
+  CHECK_CLOSE(named(report.damper, "c0").value, 12, 0.1, 0);
+}
+
 TEST_CASE("in plant: where nothing fits, no number seems certain") {
   PlantRecording recording = short_recording();
   std::ranges::reverse(recording.channels[0].samples);  // another push than the one that moved it

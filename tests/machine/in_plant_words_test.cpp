@@ -18,7 +18,7 @@ const std::string kCar =
     "  - {channel: road, kind: ground}\n"
     "sensors:\n"
     "  - {channel: body, quantity: acceleration, at: body, noise: 0.1, delay: unknown}\n"
-    "  - {channel: level, quantity: deflection, noise: 0.2 mm, delay: 2 ms}\n"
+    "  - {channel: level, quantity: deflection, noise: 0.2 mm, delay: 2 ms, filter: 30 Hz}\n"
     "current: coil\n"
     "start: rest\n"
     "held_back: 0.3\n"
@@ -53,6 +53,13 @@ TEST_CASE("a plant's file: numbers in any unit, ranges, sensors and what drives 
   CHECK(setup.sensors[1].place.quantity == PlantQuantity::Deflection);
   CHECK_CLOSE(setup.sensors[1].noise, 2e-4, 1e-12, 0);
   CHECK(setup.sensors[1].delay == 0.002);
+  CHECK(setup.sensors[0].filter == SensorFilter{});
+  CHECK(setup.sensors[1].filter == SensorFilter{30, 2});
+  CHECK(parse_in_plant_setup(with("30 Hz", "{cutoff: 0.1 kHz, order: 5}"), "car.yaml")
+            .sensors[1]
+            .filter == SensorFilter{100, 5});
+  const std::string written = format_json(to_json(setup));
+  CHECK(parse_in_plant_setup(written, "written").sensors[1].filter == SensorFilter{30, 2});
   CHECK(setup.drive == "coil");
   CHECK(setup.drive_unit == DriveUnit::Ampere);
   CHECK(setup.from_rest);
@@ -81,6 +88,10 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
   CHECK(contains(refused(with("quantity: deflection", "quantity: travel")),
                  "unknown quantity 'travel'"));
   CHECK(contains(refused(with("0.2 mm", "-1 mm")), "noise is not above 0"));
+  CHECK(contains(refused(with("30 Hz", "0 Hz")), "cut-off is not above 0 Hz"));
+  CHECK(contains(refused(with("30 Hz", "30 ms")), "Hz"));
+  CHECK(contains(refused(with("30 Hz", "{cutoff: 30 Hz, order: 2.5}")), "order is 2.5; 1 to 8"));
+  CHECK(contains(refused(with("30 Hz", "{cutof: 30 Hz}")), "cutof"));
   CHECK(contains(refused(with("start: rest", "start: moving")), "rest or unknown"));
   CHECK(contains(refused(with("held_back: 0.3", "held_back: 1.3")), "0 to below 0.9"));
   CHECK(contains(refused(with("current: coil", "current: coil\nvoltage: 1")), "not by both"));

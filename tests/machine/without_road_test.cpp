@@ -43,6 +43,12 @@ std::vector<PlantRecording> recordings_of(const std::vector<VirtualRide>& rides)
   return recordings;
 }
 
+/// A filter at this sensor of a plant's file.
+std::string with_filter(std::string text, const std::string& channel, const std::string& filter) {
+  const std::size_t place = text.find('}', text.find("channel: " + channel));
+  return text.insert(place, ", filter: " + filter);
+}
+
 /// Two rides of a plant, which has these numbers in truth, with spencer1997 in each strut.
 std::vector<PlantRecording> rides_of(InPlantSetup plant, const NamedValues& truth, double seconds,
                                      std::uint64_t seed = 31) {
@@ -142,6 +148,35 @@ TEST_CASE("without a road: the law that is the damper's leaves less of the force
   REQUIRE((right.model && wrong.model));
   CHECK(right.force_error < 0.2 * wrong.force_error);
   CHECK(right.force_error > 0);
+}
+
+TEST_CASE("without a road: sensors behind filters, which the plant states or does not" *
+          doctest::test_suite("long")) {
+  std::string text = with_filter(kUnmeasuredCar, "body", "{cutoff: 50 Hz, order: 4}");
+  text = with_filter(with_filter(text, "wheel", "50 Hz"), "level", "30 Hz");
+  const InPlantSetup stated = parse_in_plant_setup(text, "car.yaml");
+  const auto recordings =
+      rides_of(stated, {{"sprung_mass", 387}, {"tyre_stiffness", 295200}}, 12);
+  const auto fit = [&](const InPlantSetup& setup) {
+    InPlantReport report = identify_in_plant(find_law("tanh_kwok"), setup, recordings, {});
+    REQUIRE(report.model);
+    CHECK_CLOSE(report.plant[0].value, 387, 0.15, 0);
+    CHECK_CLOSE(report.plant[1].value, 295200, 0.05, 0);
+    return report;
+  };
+  const InPlantReport known = fit(stated), found = fit(unmeasured_car());
+  CHECK(known.force_error < 60);
+  CAPTURE(known.warnings.front());
+  CHECK(known.warnings.empty());
+
+  // Nearly delays: sqrt(2) over 2 pi 50 Hz for the wheel.
+  CHECK(found.force_error < 60);
+  CHECK(contains(found.warnings.back(), "not at one time: delay of body "));
+  const auto delay_of_channel = [&](const std::string& channel) {
+    return std::ranges::find(found.nuisances, "delay of " + channel, &FittedParameter::name)->value;
+  };
+  CHECK_CLOSE(delay_of_channel("body") - delay_of_channel("wheel"),
+              delay_of({50, 4}) - delay_of({50, 2}), 0, 5e-4);
 }
 
 TEST_CASE("without a road: a half car, each of whose tyres has a road of its own" *

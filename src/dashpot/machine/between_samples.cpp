@@ -113,4 +113,27 @@ std::vector<double> delayed(std::span<const double> samples, double sample_time,
   return late;
 }
 
+std::vector<std::complex<double>> forgetting_integral(std::span<const double> samples,
+                                                      std::complex<double> rate) {
+  // The weights of the samples around a step, by Simpson's rule.
+  constexpr int kParts = 16;  // the kernel is smooth over a sample
+  std::vector<std::complex<double>> weights(2 * kSamplesAround);
+  for (int part = 0; part <= 2 * kParts; ++part) {
+    const double t = part / (2.0 * kParts);
+    const double share = (part == 0 || part == 2 * kParts ? 1.0
+                          : part % 2 == 1                 ? 4.0
+                                                          : 2.0) /
+                         (6.0 * kParts);
+    const Weights w = weights_at(t);
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      weights[j] += share * std::exp(rate * (1 - t)) * w.value[j];
+  }
+
+  std::vector<std::complex<double>> taken(samples.size() - 1);
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      taken[k] += weights[j] * continued(samples, static_cast<std::ptrdiff_t>(k + j) - kReach + 1);
+  return taken;
+}
+
 }  // namespace dashpot

@@ -1,4 +1,5 @@
 #pragma once
+#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -29,5 +30,11 @@ FinerSignal straight_lines(std::span<const double> samples, double sample_time, 
 /// The signal `delay` seconds earlier at each sample, what a sensor shows that is late, by the same
 /// interpolation; a delay below 0 looks ahead.
 std::vector<double> delayed(std::span<const double> samples, double sample_time, double delay);
+
+/// From each sample to the next, in samples t: the integral of exp(rate (1 - t)) times the
+/// band-limited signal, what a pole takes in whose rate is this per sample. As many numbers as
+/// steps, one less than samples.
+std::vector<std::complex<double>> forgetting_integral(std::span<const double> samples,
+                                                      std::complex<double> rate);
 
 }  // namespace dashpot

@@ -657,22 +657,13 @@ InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
                                 const InPlantOptions& options, InPlantReport as_stated) {
   constexpr double kClearly = 0.5;
   const InPlantSetup beside = with_delays_unknown(setup);
-  std::vector<std::string> freed;
-  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
-    if (beside.sensors[s].finds_delay && !setup.sensors[s].finds_delay)
-      freed.push_back("delay of " + setup.sensors[s].channel);
-  if (freed.empty()) return as_stated;
+  if (std::ranges::equal(beside.sensors, setup.sensors, {}, &PlantSensor::finds_delay,
+                         &PlantSensor::finds_delay))
+    return as_stated;
   bool is_late = false;
   InPlantReport report = fit_somehow(law, beside, recordings, options, is_late);
   if (!report.model || !(share_left(report) < kClearly * share_left(as_stated))) return as_stated;
-
-  // What was found.
-  std::vector<std::string> found;
-  for (const FittedParameter& p : report.nuisances)
-    if (std::ranges::find(freed, p.name) != freed.end())
-      found.push_back(p.name + ' ' + format_number(1000 * p.value, 3) + " ms");
-  report.warnings.push_back("sensors and inputs are not at one time: " + join(found, ", ") +
-                            ", which the plant does not state, were found beside all else");
+  report.warnings.push_back(delays_found(setup, beside, report));
   return report;
 }
 

@@ -139,6 +139,20 @@ void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread,
                               " cannot be told apart by these sensors; --fix one of them");
 }
 
+std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
+                         const InPlantReport& report) {
+  std::vector<std::string> found;
+  for (std::size_t s = 0; s < stated.sensors.size(); ++s) {
+    if (stated.sensors[s].finds_delay || !beside.sensors[s].finds_delay) continue;
+    const std::string name = "delay of " + stated.sensors[s].channel;
+    for (const FittedParameter& p : report.nuisances)
+      if (p.name == name) found.push_back(name + ' ' + format_number(1000 * p.value, 3) + " ms");
+  }
+  return "sensors and inputs are not at one time: " + join(found, ", ") +
+         ", which the plant does not state, were found beside all else; where a filter makes them, "
+         "state it ('filter: 50 Hz' at the sensor)";
+}
+
 void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,
                    const InPlantOptions& options, std::vector<std::string>& warnings) {
   if (high > low) return;

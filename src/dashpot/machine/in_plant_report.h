@@ -121,6 +121,10 @@ void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
 /// Bounds that were met, and what cannot be told.
 void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread, InPlantReport& report);
 
+/// The delays that `beside` asks for and `stated` does not, as a warning.
+std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
+                         const InPlantReport& report);
+
 /// A current that never changes tells nothing of what the law does at others: asking for that is an
 /// error; a law that could tell it is kept to this one, and a warning says so.
 void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,

@@ -8,6 +8,7 @@
 #include "dashpot/drive.h"
 #include "dashpot/fit_choices.h"
 #include "dashpot/machine/plant_run.h"
+#include "dashpot/machine/sensor_filter.h"
 #include "dashpot/monitor.h"
 #include "dashpot/plant.h"
 
@@ -65,6 +66,7 @@ struct PlantSensor {
   double zero = 0;           ///< how far its zero may be off, likewise; 0: as far as its noise
   bool finds_delay = false;  ///< its delay is an unknown
   double delay = 0;          ///< s, known or where the search starts
+  SensorFilter filter = {};  ///< before its delay
   IdentifiedNoise identified = {};
 };
 

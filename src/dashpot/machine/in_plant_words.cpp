@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -361,6 +362,27 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
   return input;
 }
 
+/// "50 Hz", or {cutoff: 50 Hz, order: 4}.
+SensorFilter read_filter(const Value& value) {
+  SensorFilter filter;
+  if (value.kind() == Value::Kind::Object) {
+    ObjectReader reader(value, "a filter");
+    filter.cutoff = read_quantity(reader.required("cutoff"), "Hz");
+    const double order = reader.number("order", filter.order);
+    if (!(order >= 1 && order <= kMostFilterOrder && order == std::floor(order)))
+      throw Error(value.where(), "filter: its order is " + format_number(order),
+                  fmt::format("1 to {}, of Butterworth's", kMostFilterOrder));
+    filter.order = static_cast<int>(order);
+    reader.finish();
+  } else {
+    filter.cutoff = read_quantity(value, "Hz");
+  }
+  if (!(filter.cutoff > 0))
+    throw Error(value.where(), "filter: its cut-off is not above 0 Hz",
+                "leave it out if there is none");
+  return filter;
+}
+
 PlantSensor read_sensor(const Value& value, const Plant& plant) {
   ObjectReader reader(value, "a sensor");
   PlantSensor sensor{.channel = reader.string("channel"), .place = {}};
@@ -377,6 +399,7 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
     sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
     if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
   }
+  if (const Value* filter = reader.optional("filter")) sensor.filter = read_filter(*filter);
   reader.finish();
   return sensor;
 }
@@ -500,6 +523,9 @@ Value to_json(const InPlantSetup& setup) {
       one.add("delay", "unknown");
     else if (sensor.delay != 0)
       one.add("delay", sensor.delay);
+    if (sensor.filter.cutoff > 0)
+      one.add("filter",
+              Value::object({{"cutoff", sensor.filter.cutoff}, {"order", sensor.filter.order}}));
     sensors.push_back(std::move(one));
   }
   Value file = Value::object({{"plant", setup.model->name}});

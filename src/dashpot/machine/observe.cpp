@@ -198,7 +198,8 @@ constexpr std::size_t kTelling = 6000;  // samples, of all recordings, that tell
 std::vector<PlantRecording> usual_parts(const InPlantSetup& setup,
                                         const std::vector<PlantRecording>& recordings) {
   std::vector<PlantRecording> moving = moving_parts(setup, recordings);
-  std::vector<PlantRecording> lively = lively_parts(setup, moving, kTelling / moving.size());
+  const std::size_t horizon = std::max(kTelling / moving.size(), kFewestObserved);
+  std::vector<PlantRecording> lively = lively_parts(setup, moving, horizon);
   return lively.empty() ? moving : lively;
 }
 
@@ -415,12 +416,13 @@ ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording
   for (const std::string& channel : inputs) driven.push_back(&recording.channel(channel).samples);
   if (!setup.drive.empty()) driven.push_back(&recording.channel(setup.drive).samples);
 
-  // A late sensor is brought forward.
+  // A late sensor is brought forward, and from behind its filter.
   std::vector<std::vector<double>> measured;
   for (const PlantSensor& sensor : setup.sensors) {
     const std::vector<double>& shown = recording.channel(sensor.channel).samples;
-    measured.push_back(sensor.delay == 0 ? shown
-                                         : delayed(shown, recording.sample_time, -sensor.delay));
+    measured.push_back(in_front_of(sensor.filter, shown, recording.sample_time));
+    if (sensor.delay != 0)
+      measured.back() = delayed(measured.back(), recording.sample_time, -sensor.delay);
   }
   for (std::size_t k = 0; k < samples.count; ++k) {
     for (const std::vector<double>* channel : driven) samples.driven.push_back((*channel)[k]);
@@ -582,9 +584,10 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
       throw Error("plant, " + sensor.channel, "says nothing of its noise",
                   "noise: what 'dashpot observe' prints of this sensor, or a model whose "
                   "'identify --in' found it");
-    if (std::abs(sensor.delay) > kLate * sample_time)
+    const double late = sensor.delay + delay_of(sensor.filter);
+    if (std::abs(late) > kLate * sample_time)
       throw Error("plant, " + sensor.channel,
-                  "is " + format_number(1000 * sensor.delay, 3) +
+                  "is " + format_number(1000 * late, 3) +
                       " ms late: a filter that runs with the plant cannot bring it forward",
                   "delay the other sensors as much before the filter, and leave 'delay' out");
     noise.sensors.push_back(sensor.noise);

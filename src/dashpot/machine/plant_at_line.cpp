@@ -89,7 +89,7 @@ void PlantAtLine::move_to(double w) {
   }
   invert(matrix_, inverse_, n);
   for (std::size_t s = 0; s < late_.size(); ++s)
-    late_[s] = std::exp(-iw() * setup_.sensors[s].delay);
+    late_[s] = response_at(setup_.sensors[s].filter, w) * std::exp(-iw() * setup_.sensors[s].delay);
 }
 
 /// Of a push at each coordinate that comes from this input, this damper, or neither.

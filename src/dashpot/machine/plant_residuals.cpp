@@ -67,8 +67,11 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
                    .rate = {},
                    .current = {}};
 
-    // The part that is fitted.
-    one.first = static_cast<std::size_t>(setup.skip / recording.sample_time);
+    // The part that is fitted: nobody knows what filters held before the first sample.
+    double skip = setup.skip;
+    for (const PlantSensor& sensor : setup.sensors)
+      if (!setup.from_rest) skip = std::max(skip, memory_of(sensor.filter));
+    one.first = static_cast<std::size_t>(skip / recording.sample_time);
     one.training =
         static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
     if (one.training < one.first + kFewest)
@@ -306,19 +309,25 @@ bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
   std::vector<double> state = state_at_first(x, place, plant, damper);
   if (one.driving.method == PlantMethod::StraightForce) plant.settle(damper, one.driving, state);
 
-  // What a late sensor shows is older; a little further, so that it is known between samples.
+  // What a late sensor shows is older, behind a filter too; a little further, so that it is known
+  // between samples.
   std::vector<double> delays;
   for (std::size_t s = 0; s < sensors_.size(); ++s) {
     delays.push_back(setup_->sensors[s].delay);
     for (std::size_t d = 0; d < delays_.size(); ++d)
       if (delays_[d] == s) delays[s] = size_[first_delay_ + d] * x[first_delay_ + d];
   }
-  const bool is_late = std::ranges::any_of(delays, [](double delay) { return delay != 0; });
+  bool is_late = std::ranges::any_of(delays, [](double delay) { return delay != 0; });
+  for (const PlantSensor& sensor : setup_->sensors) is_late |= sensor.filter.cutoff > 0;
   const std::size_t further =
       is_late ? std::min(samples + kSamplesAround, one.driving.samples) : samples;
   if (!plant.run(damper, one.driving, further, sensors, state, shown, beside)) return false;
-  for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s)
-    if (delays[s] != 0) shown[s] = delayed(shown[s], one.driving.sample_time, delays[s]);
+  const double sample_time = one.driving.sample_time;
+  for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s) {
+    const SensorFilter& filter = setup_->sensors[s].filter;
+    if (filter.cutoff > 0) shown[s] = behind(filter, shown[s], sample_time);
+    if (delays[s] != 0) shown[s] = delayed(shown[s], sample_time, delays[s]);
+  }
   for (std::vector<double>& one_shown : shown) one_shown.resize(samples);
   return true;
 }

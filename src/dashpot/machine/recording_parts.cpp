@@ -104,7 +104,7 @@ double variance_of(std::span<const double> samples) {
 std::size_t lively_from(const InPlantSetup& setup, const PlantRecording& recording,
                         std::size_t fitted, std::size_t horizon) {
   constexpr double kQuiet = 0.25, kLively = 1;  // of the power
-  const std::size_t tenth = horizon / 10;
+  const std::size_t tenth = std::max<std::size_t>(1, horizon / 10);
   const std::vector<std::string> names = channels_in_motion(setup);
   const auto power_over = [&](std::size_t first, std::size_t count) {
     double sum = 0;

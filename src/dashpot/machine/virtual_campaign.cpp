@@ -281,7 +281,8 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
     for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
       const PlantSensor& sensor = setup.sensors[s];
       const double zero = (sensor.zero > 0 ? sensor.zero : sensor.noise) * noise.normal();
-      std::vector<double> values = sampled(shown[s], samples, sensor.delay / driving.sample_time);
+      std::vector<double> values = sampled(behind(sensor.filter, shown[s], driving.sample_time),
+                                           samples, sensor.delay / driving.sample_time);
       for (double& value : values) value += zero;
       add_channel(ride.recorded, sensor.channel, unit_of(sensor.place, plant),
                   with_noise(std::move(values), sensor.noise, noise));

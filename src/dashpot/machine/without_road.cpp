@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "dashpot/base/parallel.h"
@@ -301,6 +302,7 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
 struct Point {
   std::vector<double> plant, law;
   ObserverNoise noise;
+  double gain_by_delays = 0;  ///< at the end
 };
 
 /// The most likely from here, or from where a parameter of the law does not follow the drive: one
@@ -327,6 +329,46 @@ MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const Law
       best = std::move(other);
   }
   return best;
+}
+
+/// The setup with the delays that it does not state among the unknowns; one stays, since on a road
+/// that nobody knows a delay of all shows nowhere. Nothing where it asks for some, or states all.
+std::optional<InPlantSetup> with_delays_unknown(InPlantSetup setup) {
+  bool stays = std::ranges::any_of(setup.sensors, [](const auto& one) { return one.delay != 0; });
+  bool asks = false;
+  for (PlantSensor& sensor : setup.sensors) {
+    if (sensor.finds_delay) return {};
+    if (sensor.delay != 0) continue;
+    sensor.finds_delay = stays;
+    asks |= stays;
+    stays = true;
+  }
+  return asks ? std::optional(std::move(setup)) : std::nullopt;
+}
+
+/// By how much -log L would fall for each sample, to first order, if the delays were unknown too
+/// that the plant does not state.
+double gain_by_delays(const Task& task, const std::vector<RiddenRecording>& rides,
+                      const LawUnknowns& unknowns, double force, const Point& point) {
+  constexpr double kTrace = 1e-9;  // keeps what the law and the noise trade solvable
+  const std::optional<InPlantSetup> beside = with_delays_unknown(task.setup);
+  if (!beside) return 0;
+  const SpectralLikelihood late(*beside, rides, unknowns, point.plant, point.noise, force);
+  const std::vector<double> start = late.start(point.plant, point.law);
+  const LikelihoodSlopes slopes =
+      most_likely(late, start, 0, task.options.threads, task.options.monitor).slopes;
+  if (!slopes.finite) return 0;
+
+  // A step of the scoring.
+  const std::size_t n = late.size();
+  std::vector<double> matrix = slopes.information, step(n);
+  for (std::size_t k = 0; k < n; ++k)
+    matrix[k * (n + 1)] = std::max(matrix[k * (n + 1)] * (1 + kTrace), 1e-300);
+  if (!solve_positive_definite(matrix, slopes.gradient, step)) return 0;
+  double gain = 0, samples = 0;
+  for (std::size_t k = 0; k < n; ++k) gain += slopes.gradient[k] * step[k] / 2;
+  for (const RiddenRecording& ride : rides) samples += static_cast<double>(ride.samples);
+  return gain / samples;
 }
 
 /// The most likely of all unknowns along the observed motion, from `point`, which moves there. The
@@ -373,6 +415,7 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
     add_parameters(likelihood, found.x, spread, report);
     mend_intervals(likelihood, report);
     add_warnings(likelihood, spread, report);
+    point.gain_by_delays = gain_by_delays(task, rides, unknowns, force, point);
     SpectralLikelihood more(task.setup, rides, unknowns, point.plant, point.noise, force, true);
     ask_for_more(more, more.start(point.plant, point.law), options, report);
   }
@@ -392,14 +435,12 @@ std::pair<double, double> drive_range(const InPlantSetup& setup,
   return {low, high};
 }
 
-}  // namespace
-
-InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
-                                    const std::vector<PlantRecording>& recordings,
-                                    const InPlantOptions& options) {
-  const double started = cpu_seconds();
-  require_setup(setup);
-  require_tellable(setup, recordings);
+/// All stages of a fit of the setup as it stands. is_late: whether delays that it does not state
+/// would make the recordings far more likely.
+InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
+                               const std::vector<PlantRecording>& recordings,
+                               const InPlantOptions& options, bool& is_late) {
+  constexpr double kWorthATry = 0.01;  // of -log L, for each sample
   InPlantReport report;
   report.road_measured = false;
   report.step_error = std::numeric_limits<double>::quiet_NaN();
@@ -445,6 +486,7 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
         report.force_error = std::hypot(report.force_error, error.deviation);
       add_traces(task, found, point.noise, recordings, report);
       std::ranges::move(noise_doubts(setup, report), std::back_inserter(report.warnings));
+      is_late = point.gain_by_delays > kWorthATry;
     }
   } catch (const Error& error) {
     // A filter with this law diverges; those of other laws may not.
@@ -452,6 +494,42 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
     report.status = FitReport::Status::Failed;
     report.message = error.what();
   }
+  return report;
+}
+
+/// Once more with the delays that the plant does not state among the unknowns. Taken where the
+/// law's own errors are then clearly smaller and some delay is more than what a law of another
+/// structure than the damper's is late by.
+InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
+                                const std::vector<PlantRecording>& recordings,
+                                const InPlantOptions& options, InPlantReport as_stated) {
+  constexpr double kClearly = 0.7;  // half the power
+  constexpr double kLate = 0.001;   // s
+  const InPlantSetup beside = *with_delays_unknown(setup);
+  bool is_late = false;
+  InPlantReport report = fit_without_road(law, beside, recordings, options, is_late);
+  double most = 0;
+  for (const FittedParameter& p : report.nuisances)
+    if (p.name.starts_with("delay of ")) most = std::max(most, std::abs(p.value));
+  if (!(most > kLate) || !(report.force_error < kClearly * as_stated.force_error)) return as_stated;
+  const auto stays = std::ranges::find(beside.sensors, false, &PlantSensor::finds_delay);
+  report.warnings.push_back(delays_found(setup, beside, report) + "; all may be later by what " +
+                            stays->channel + " is late by, which shows nowhere");
+  return report;
+}
+
+}  // namespace
+
+InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
+                                    const std::vector<PlantRecording>& recordings,
+                                    const InPlantOptions& options) {
+  const double started = cpu_seconds();
+  require_setup(setup);
+  require_tellable(setup, recordings);
+  bool is_late = false;
+  InPlantReport report = fit_without_road(law, setup, recordings, options, is_late);
+  if (report.model && is_late)
+    report = fit_beside_delays(law, setup, recordings, options, std::move(report));
   report.seconds = cpu_seconds() - started;
   return report;
 }
