@@ -445,6 +445,12 @@ TEST_CASE("smooth: what one sample says of another instant is what that says of 
     for (const std::size_t which : {3u, 25u})
       CHECK_CLOSE(moved(which, at), moved(at, which), 1e-6, 1e-9);
   CHECK_CLOSE(moved(12, 12), run.covariances[12 * all * all] / 1e-6, 1e-5, 0);
+
+  // Its tangents are the same everywhere, so that nothing is to be gained by better ones.
+  ObservedRun again = run;
+  smooth_again(observer, samples, again);
+  for (std::size_t k = 0; k < run.estimates.size(); ++k)
+    CHECK_CLOSE(again.estimates[k], run.estimates[k], 1e-6, 1e-12);
 }
 
 TEST_CASE("observe: what cannot be is said with what would be right") {

@@ -372,10 +372,10 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
   return told;
 }
 
-void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup,
-                        const PlantRecording& recording, const ObservedRun& run, double width,
-                        ObservedRecording& told) {
-  const ObserverTables& t = observer.tables();
+/// How each sensor fits what the filter expected of it, all but its zero.
+std::vector<ObservedSensor> one_ahead(const InPlantSetup& setup, const PlantRecording& recording,
+                                      const ObservedRun& run, double width) {
+  std::vector<ObservedSensor> sensors;
   const std::size_t settled = std::min<std::size_t>(50, run.samples.size() / 2);
   const Plant plant = make_plant(*setup.model, setup.known);
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
@@ -394,9 +394,9 @@ void add_sensor_figures(const PlantObserver& observer, const InPlantSetup& setup
     }
     figure.surprise = std::sqrt(square / count);
     figure.inside = inside / count;
-    figure.offset = run.estimates[(run.samples.size() - 1) * t.all() + t.moving() + s];
-    told.sensors.push_back(std::move(figure));
+    sensors.push_back(std::move(figure));
   }
+  return sensors;
 }
 
 }  // namespace
@@ -536,10 +536,17 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
       throw Error(recordings[r].name, "the filter diverges",
                   "more of its steps, or a damper and a plant that fit the recording");
     add_sensor_faults(r, run);
-    if (!options.causal) smooth(observers[r], run);
+    std::vector<ObservedSensor> sensors = one_ahead(setup, recordings[r], run, width);
+    if (!options.causal) {
+      smooth(observers[r], run);
+      smooth_again(observers[r], samples[r], run);
+    }
     report.recordings.push_back(
         quantities_of(observers[r], setup, recordings[r], samples[r], run, width));
-    add_sensor_figures(observers[r], setup, recordings[r], run, width, report.recordings.back());
+    const ObserverTables& t = observers[r].tables();
+    for (std::size_t s = 0; s < sensors.size(); ++s)
+      sensors[s].offset = run.estimates[(samples[r].count - 1) * t.all() + t.moving() + s];
+    report.recordings.back().sensors = std::move(sensors);
   }
 
   // What speaks against the bands.

@@ -14,30 +14,41 @@ using ConstMatrixMap = Eigen::Map<const RowMatrix>;
 using VectorMap = Eigen::Map<Eigen::VectorXd>;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 
+/// Estimate and covariance of a run at a sample.
+PlantObserver::Known known_at(const ObservedRun& run, std::size_t k, std::size_t all) {
+  return {std::span(run.estimates).subspan(k * all, all),
+          std::span(run.covariances).subspan(k * all * all, all * all)};
+}
+
 /// Calls see(k, estimate, covariance, sample) at every sample of the filter's run; stops where it
-/// returns false.
+/// returns false. along: a run at whose estimates tangents are taken; null: at the filter's own.
 template <class See>
 void run_filter(const PlantObserver& observer, const ObservedSamples& samples, std::size_t end,
-                const See& see) {
+                const ObservedRun* along, const See& see) {
   const std::size_t all = observer.tables().all();
   std::vector<double> estimate(all), covariance(all * all);
   ObservedSample sample;
   for (std::size_t k = 0; k < end; ++k) {
-    if (k == 0)
-      observer.start(samples.driven_at(0), samples.measured_at(0), samples.about, estimate,
-                     covariance, sample);
+    const auto now = samples.driven_at(k), measured = samples.measured_at(k);
+    if (k == 0 && along)
+      observer.start_along(known_at(*along, 0, all), now, measured, samples.about, estimate,
+                           covariance, sample);
+    else if (k == 0)
+      observer.start(now, measured, samples.about, estimate, covariance, sample);
+    else if (along)
+      observer.step_along(known_at(*along, k - 1, all), known_at(*along, k, all),
+                          samples.driven_at(k - 1), now, measured, estimate, covariance, sample);
     else
-      observer.step(samples.driven_at(k - 1), samples.driven_at(k), samples.measured_at(k),
-                    estimate, covariance, sample);
+      observer.step(samples.driven_at(k - 1), now, measured, estimate, covariance, sample);
     if (!see(k, estimate, covariance, sample)) return;
   }
 }
 
-}  // namespace
-
-ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& samples) {
+/// All of a run.
+ObservedRun kept_run(const PlantObserver& observer, const ObservedSamples& samples,
+                     const ObservedRun* along) {
   ObservedRun run;
-  run_filter(observer, samples, samples.count,
+  run_filter(observer, samples, samples.count, along,
              [&](std::size_t, const std::vector<double>& estimate,
                  const std::vector<double>& covariance, const ObservedSample& sample) {
                run.estimates.insert(run.estimates.end(), estimate.begin(), estimate.end());
@@ -48,11 +59,17 @@ ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& sampl
   return run;
 }
 
+}  // namespace
+
+ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& samples) {
+  return kept_run(observer, samples, nullptr);
+}
+
 Innovations innovations(const PlantObserver& observer, const ObservedSamples& samples) {
   Innovations told;
   bool finite = true;
   run_filter(
-      observer, samples, samples.count,
+      observer, samples, samples.count, nullptr,
       [&](std::size_t, const std::vector<double>& estimate, const std::vector<double>&,
           const ObservedSample& sample) {
         told.beyond.insert(told.beyond.end(), sample.innovation.begin(), sample.innovation.end());
@@ -66,7 +83,7 @@ Innovations innovations(const PlantObserver& observer, const ObservedSamples& sa
 double misfit(const PlantObserver& observer, const ObservedSamples& samples, std::size_t first,
               std::size_t end) {
   double sum = 0;
-  run_filter(observer, samples, end,
+  run_filter(observer, samples, end, nullptr,
              [&](std::size_t k, const std::vector<double>& estimate, const std::vector<double>&,
                  const ObservedSample& sample) {
                for (std::size_t s = 0; k >= first && s < sample.variance.size(); ++s)
@@ -116,6 +133,16 @@ void smooth(const PlantObserver& observer, ObservedRun& run) {
     adjoint.head(moving) = (transition.transpose() * adjoint.head(moving)).eval();
     information.topRows(moving) = (transition.transpose() * information.topRows(moving)).eval();
     information.leftCols(moving) = (information.leftCols(moving) * transition).eval();
+  }
+}
+
+void smooth_again(const PlantObserver& observer, const ObservedSamples& samples, ObservedRun& run) {
+  constexpr int kPasses = 3;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    ObservedRun next = kept_run(observer, samples, &run);
+    smooth(observer, next);
+    if (!std::ranges::all_of(next.estimates, [](double x) { return std::isfinite(x); })) return;
+    run = std::move(next);
   }
 }
 

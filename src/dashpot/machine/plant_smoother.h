@@ -38,6 +38,12 @@ ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& sampl
 /// smoother of Bryson and Frazier as he modified it, which inverts no covariance.
 void smooth(const PlantObserver& observer, ObservedRun& run);
 
+/// Filters and smooths a smoothed run three times more, with tangents along what it told the time
+/// before: that goes to the most likely motion. Ends where it diverges.
+/// Source: B. M. Bell, The iterated Kalman smoother as a Gauss-Newton method, SIAM Journal on
+/// Optimization 4 (1994) 626-636.
+void smooth_again(const PlantObserver& observer, const ObservedSamples& samples, ObservedRun& run);
+
 /// Where the plant and its roads are at the first sample, as the first `count` samples tell when
 /// they are all known: what ObservedSamples::about takes. So the filter begins where straight lines
 /// through the damper's force are right.

@@ -72,6 +72,20 @@ void keep(const ObserverTables& t, const FilterSample& told, bool moved, Observe
   sample.variance.assign(told.variance, told.variance + sensors);
 }
 
+/// What the sensors show now, taken in by their rows at the known motion.
+void take_along(const FilterWithDampers& f, PlantObserver::Known known,
+                std::span<const double> before, std::span<const double> now,
+                std::span<const double> measured, std::span<double> estimate,
+                std::span<double> covariance, FilterSample& told) {
+  filter_expect(&f, before.data(), now.data(), measured.data(), known.estimate.data(),
+                known.covariance.data(), &told);
+  const std::size_t all = estimate.size();
+  for (std::size_t s = 0; s < measured.size(); ++s)
+    for (std::size_t k = 0; k < all; ++k)
+      told.innovation[s] -= told.rows[s * all + k] * (estimate[k] - known.estimate[k]);
+  filter_take(&f, estimate.data(), covariance.data(), &told);
+}
+
 }  // namespace
 
 PlantObserver::PlantObserver(ObserverTables tables,
@@ -95,16 +109,15 @@ PlantObserver::PlantObserver(ObserverTables tables,
   require(static_cast<std::size_t>(tables_.inputs), kMostObservedInputs, "inputs");
 }
 
-void PlantObserver::start(std::span<const double> now, std::span<const double> measured,
-                          std::span<const double> about, std::span<double> estimate,
-                          std::span<double> covariance, ObservedSample& sample) const {
+void PlantObserver::before_first(double drive, std::span<const double> about,
+                                 std::span<double> estimate, std::span<double> covariance) const {
   constexpr double kKnown = 0.1;
   const std::size_t all = tables_.all();
   std::ranges::fill(estimate, 0.0);
   std::ranges::fill(covariance, 0.0);
   std::size_t own = tables_.own();
   for (const auto& damper : dampers_) {
-    damper->rest({0, 0, now.back()}, estimate.subspan(own, damper->state_size()));
+    damper->rest({0, 0, drive}, estimate.subspan(own, damper->state_size()));
     own += damper->state_size();
   }
   std::ranges::copy(about, estimate.begin());
@@ -115,7 +128,12 @@ void PlantObserver::start(std::span<const double> now, std::span<const double> m
         (!about.empty() && is_velocity ? kKnown : 1) * tables_.first_deviation[k];
     covariance[k * all + k] = deviation * deviation;
   }
+}
 
+void PlantObserver::start(std::span<const double> now, std::span<const double> measured,
+                          std::span<const double> about, std::span<double> estimate,
+                          std::span<double> covariance, ObservedSample& sample) const {
+  before_first(now.back(), about, estimate, covariance);
   const FilterWithDampers f = filter_of(tables_, dampers_);
   FilterSample told;
   filter_update(&f, now.data(), now.data(), measured.data(), estimate.data(), covariance.data(),
@@ -132,6 +150,37 @@ void PlantObserver::step(std::span<const double> before, std::span<const double>
                  told.transition);
   filter_update(&f, before.data(), now.data(), measured.data(), estimate.data(), covariance.data(),
                 &told);
+  keep(tables_, told, true, sample);
+}
+
+void PlantObserver::start_along(Known later, std::span<const double> now,
+                                std::span<const double> measured, std::span<const double> about,
+                                std::span<double> estimate, std::span<double> covariance,
+                                ObservedSample& sample) const {
+  before_first(now.back(), about, estimate, covariance);
+  FilterSample told;
+  take_along(filter_of(tables_, dampers_), later, now, now, measured, estimate, covariance, told);
+  keep(tables_, told, false, sample);
+}
+
+void PlantObserver::step_along(Known earlier, Known later, std::span<const double> before,
+                               std::span<const double> now, std::span<const double> measured,
+                               std::span<double> estimate, std::span<double> covariance,
+                               ObservedSample& sample) const {
+  const FilterWithDampers f = filter_of(tables_, dampers_);
+  const std::size_t moving = tables_.moving();
+  FilterSample told;
+
+  // Where the known motion goes, and how the estimate lies beside it.
+  std::vector<double> known(earlier.estimate.begin(), earlier.estimate.end()), beside(moving);
+  for (std::size_t k = 0; k < moving; ++k) beside[k] = estimate[k] - known[k];
+  filter_move(&f, before.data(), now.data(), earlier.covariance.data(), known.data(),
+              told.transition);
+  for (std::size_t i = 0; i < moving; ++i)
+    estimate[i] =
+        std::inner_product(beside.begin(), beside.end(), &told.transition[i * moving], known[i]);
+  filter_spread(&f, told.transition, covariance.data());
+  take_along(f, later, before, now, measured, estimate, covariance, told);
   keep(tables_, told, true, sample);
 }
 

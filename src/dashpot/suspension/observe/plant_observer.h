@@ -79,6 +79,20 @@ class PlantObserver {
   void step(std::span<const double> before, std::span<const double> now,
             std::span<const double> measured, std::span<double> estimate,
             std::span<double> covariance, ObservedSample& sample) const;
+  /// An estimate with its covariance.
+  struct Known {
+    std::span<const double> estimate, covariance;
+  };
+  /// The first and the next sample, with the tangents of plant and dampers at a motion that is
+  /// known already, `earlier` at the sample before and `later` at this one, in place of those at
+  /// the estimate.
+  void start_along(Known later, std::span<const double> now, std::span<const double> measured,
+                   std::span<const double> about, std::span<double> estimate,
+                   std::span<double> covariance, ObservedSample& sample) const;
+  void step_along(Known earlier, Known later, std::span<const double> before,
+                  std::span<const double> now, std::span<const double> measured,
+                  std::span<double> estimate, std::span<double> covariance,
+                  ObservedSample& sample) const;
   /// Force of a damper, N, with its standard deviation, deflection m and its rate m/s.
   struct Damper {
     double force = 0, deviation = 0, deflection = 0, velocity = 0;
@@ -87,6 +101,9 @@ class PlantObserver {
                    std::span<const double> estimate, std::span<const double> covariance) const;
 
  private:
+  void before_first(double drive, std::span<const double> about, std::span<double> estimate,
+                    std::span<double> covariance) const;
+
   ObserverTables tables_;
   std::vector<std::shared_ptr<const DamperModel>> dampers_;
 };

@@ -427,15 +427,12 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
   }
 }
 
-/* From the sample before to this one, before its sensors are looked at. */
-static inline void filter_predict(const PlantFilter* f, const double* before, const double* now,
-                                  double* s, double* c, double* transition) {
+/* The covariance after a step with this transition: of what moves among itself, then with the
+ * offsets. */
+static inline void filter_spread(const PlantFilter* f, const double* transition, double* c) {
   double product[FILTER_MOST * FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
   int i, j, k;
-  filter_move(f, before, now, c, s, transition);
-
-  /* The covariance: of what moves among itself, then with the offsets. */
   for (i = 0; i < moving; ++i) {
     for (j = 0; j < all; ++j) {
       double sum = 0;
@@ -459,6 +456,13 @@ static inline void filter_predict(const PlantFilter* f, const double* before, co
       c[(j * all) + i] = product[(i * all) + j];
     }
   }
+}
+
+/* From the sample before to this one, before its sensors are looked at. */
+static inline void filter_predict(const PlantFilter* f, const double* before, const double* now,
+                                  double* s, double* c, double* transition) {
+  filter_move(f, before, now, c, s, transition);
+  filter_spread(f, transition, c);
 }
 
 /* The force of damper d with its errors, and what it depends on, one number per moving one. */
@@ -486,28 +490,25 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
   return filter_force(f, d, at, &s[own]) + filter_errors(f, d, s, 0);
 }
 
-/* Takes the sensors in, one after the other. One that shows no number is left out. */
-static inline void filter_update(const PlantFilter* f, const double* before, const double* now,
-                                 const double* measured, double* s, double* c,
+/* What each sensor depends on at an estimate, a row of `sample` each, and what it shows beyond what
+ * is expected of it there, as its innovation. */
+static inline void filter_expect(const PlantFilter* f, const double* before, const double* now,
+                                 const double* measured, const double* s, const double* c,
                                  FilterSample* sample) {
   double slopes[FILTER_MOST_INPUTS + 1], gradient[FILTER_MOST_DAMPERS * FILTER_MOST];
-  double force[FILTER_MOST_DAMPERS], change[FILTER_MOST], with[FILTER_MOST];
+  double force[FILTER_MOST_DAMPERS];
   const int moving = filter_moving(f), all = filter_all(f);
-  int d, i, k, m;
+  int d, k, m;
   filter_slopes(f, before, now, slopes);
   for (d = 0; d < f->dampers; ++d) {
     DamperInput at;
     filter_input(f, d, now, slopes, s, &at);
     force[d] = filter_gradient(f, d, &at, s, c, &gradient[d * FILTER_MOST]);
   }
-  for (k = 0; k < all; ++k) {
-    change[k] = 0;
-  }
   for (m = 0; m < f->sensors; ++m) {
     const double* by_force = &f->sensor_force[m * f->dampers];
     double* row = &sample->rows[m * all];
     double beyond = measured[m] - (by_force[0] * force[0]);
-    double variance = f->sensor_variance[m];
     for (k = 0; k < moving; ++k) {
       row[k] = by_force[0] * gradient[k];
     }
@@ -533,6 +534,22 @@ static inline void filter_update(const PlantFilter* f, const double* before, con
     for (k = moving; k < all; ++k) {
       row[k] = (k == (moving + m)) ? 1 : 0;
     }
+    sample->innovation[m] = beyond;
+  }
+}
+
+/* Takes the sensors in, one after the other, as they were expected. One that shows no number is
+ * left out. */
+static inline void filter_take(const PlantFilter* f, double* s, double* c, FilterSample* sample) {
+  double change[FILTER_MOST], with[FILTER_MOST];
+  const int all = filter_all(f);
+  int i, k, m;
+  for (k = 0; k < all; ++k) {
+    change[k] = 0;
+  }
+  for (m = 0; m < f->sensors; ++m) {
+    const double* row = &sample->rows[m * all];
+    double beyond = sample->innovation[m], variance = f->sensor_variance[m];
 
     /* What the sensors before it have changed counts by the same row. */
     for (i = 0; i < all; ++i) {
@@ -563,6 +580,14 @@ static inline void filter_update(const PlantFilter* f, const double* before, con
   for (k = 0; k < all; ++k) {
     s[k] += change[k];
   }
+}
+
+/* What the sensors show now, taken in. */
+static inline void filter_update(const PlantFilter* f, const double* before, const double* now,
+                                 const double* measured, double* s, double* c,
+                                 FilterSample* sample) {
+  filter_expect(f, before, now, measured, s, c, sample);
+  filter_take(f, s, c, sample);
 }
 
 /* Damper d now, after filter_update(): its force with its errors, N; the standard deviation of
