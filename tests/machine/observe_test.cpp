@@ -156,6 +156,14 @@ TEST_CASE("observe: an accelerometer that shows gravity is told, one whose zero 
   for (double& value : ride.recorded.channels.front().samples) value += 9.81;
   REQUIRE(ride.recorded.channels.front().name == "az_body");
   CHECK(contains(told(), "ride, az_body: its zero came out at "));
+
+  // A law that leaps where the stroke crosses 0 is told of at less.
+  for (double& value : ride.recorded.channels.front().samples) value -= 9.81;
+  for (Channel& channel : ride.recorded.channels)
+    for (double& value : channel.samples)
+      if (channel.name == "level") value += 8e-4;
+  CHECK(contains(told(), "level: its zero came out at 0.000"));
+  CHECK(contains(told(), "the leap of this model where the stroke crosses 0"));
 }
 
 TEST_CASE(

@@ -254,11 +254,13 @@ ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers
   return found.x.empty() || !std::isfinite(found.value) ? search.first() : search.at(found.x).first;
 }
 
-/// Where dampers went, or were driven, beyond what their models were fitted on.
+/// Where dampers went, for more than a peak or two, or were driven beyond what their models were
+/// fitted on.
 std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InPlantSetup& setup,
                                        const std::vector<ObservedSamples>& samples,
                                        const ObserveReport& report) {
   constexpr double kSettled = 1;  // s, in which the filter settles
+  constexpr double kFew = 0.01;   // of the samples: a peak or two
   const std::size_t count = dampers.size();
   std::vector<std::string> beyond;
   for (std::size_t d = 0; d < count; ++d) {
@@ -279,31 +281,47 @@ std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InP
     const std::string where = count > 1 ? report.struts[d] + ": " : "";
     for (const Extrapolation& e :
          extrapolations(*dampers[d].model, dampers[d].domain, setup.drive_unit, motions))
-      if (e.high > e.low || e.quantity == drive_channel(setup.drive_unit))
+      if (e.quantity == drive_channel(setup.drive_unit) || (e.high > e.low && e.share > kFew))
         beyond.push_back(where + describe(e));
   }
   return beyond;
 }
 
+/// Whether the force leaps where the stroke crosses 0, at some tenth of the greatest speed.
+bool leaps_at_zero(const DamperModel& damper, const ObserverScale& scale, double drive) {
+  constexpr double kHardly = 1e-9, kTenth = 0.1, kLeap = 0.02;  // of stroke, speed and force
+  std::vector<double> z(damper.state_size());
+  damper.rest({0, 0, drive}, z);
+  const auto force = [&](double x) {
+    return damper.force({x * scale.stroke, kTenth * scale.speed, drive}, z);
+  };
+  return std::abs(force(kHardly) - force(-kHardly)) > kLeap * scale.force;
+}
+
 /// Sensors whose zeros came out far from where they were looked for: the filter gives up a part of
-/// the motion and of the force in their stead.
+/// the motion and of the force in their stead. A law that leaps at 0 says where that is by its
+/// leap, which the damper need not have there.
 std::vector<std::string> far_zeros(const InPlantSetup& setup, const ObserverScale& scale,
-                                   const ObserveReport& report) {
-  constexpr double kFar = 5;  // standard deviations
-  std::vector<std::string> far;
+                                   bool leaps, const ObserveReport& report) {
+  const double far = leaps ? 2 : 5;  // standard deviations
+  std::vector<std::string> told;
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const ObservedRecording* worst = &report.recordings.front();
-    for (const ObservedRecording& told : report.recordings)
-      if (std::abs(told.sensors[s].offset) > std::abs(worst->sensors[s].offset)) worst = &told;
+    for (const ObservedRecording& one : report.recordings)
+      if (std::abs(one.sensors[s].offset) > std::abs(worst->sensors[s].offset)) worst = &one;
     const ObservedSensor& sensor = worst->sensors[s];
-    if (!(std::abs(sensor.offset) > kFar * scale.offset[s])) continue;
-    far.push_back(worst->name + ", " + sensor.channel + ": its zero came out at " +
-                  format_number(sensor.offset, 3) + ' ' + sensor.unit +
-                  ", and was looked for within " + format_number(scale.offset[s], 3) +
-                  ": motion and force lean by it, beyond their bands; take it off (an "
-                  "accelerometer may show gravity), or state 'zero' at the sensor");
+    if (!(std::abs(sensor.offset) > far * scale.offset[s])) continue;
+    told.push_back(worst->name + ", " + sensor.channel + ": its zero came out at " +
+                   format_number(sensor.offset, 3) + ' ' + sensor.unit +
+                   ", and was looked for within " + format_number(scale.offset[s], 3) +
+                   ": motion and force lean by it, beyond their bands; take it off (an "
+                   "accelerometer may show gravity), or state 'zero' at the sensor");
+    if (leaps)
+      told.back() +=
+          "; or the leap of this model where the stroke crosses 0 was taken for where "
+          "that is: try one without, as bouc_wen";
   }
-  return far;
+  return told;
 }
 
 /// Filters of a recording with the uncertainties as they are, and where slow errors of the force
@@ -558,7 +576,9 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
-  std::ranges::move(far_zeros(setup, scale, report), std::back_inserter(report.warnings));
+  const bool leaps = std::ranges::any_of(
+      models, [&](const auto& model) { return leaps_at_zero(*model, scale, drive); });
+  std::ranges::move(far_zeros(setup, scale, leaps, report), std::back_inserter(report.warnings));
   std::ranges::move(beyond_models(dampers, setup, samples, report),
                     std::back_inserter(report.warnings));
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
