@@ -127,7 +127,7 @@ LeastSquaresReport solve_until_near(const LeastSquaresProblem& problem, std::vec
   solver.max_iterations = kIterations;
   solver.function_tolerance = 1e-6;
   solver.threads = options.threads;
-  solver.line_search = LineSearch::None;
+  solver.line_search = LineSearch::ByResiduals;
   solver.on_iteration = [&](int, double, std::span<const double>) { options.monitor.check(); };
   LeastSquaresReport solved;
   int iterations = 0;

@@ -151,7 +151,6 @@ void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all)
       hold(in.start.plant.size() + one.held->first + u);
     LeastSquaresOptions solver = solver_options(in.options, kIterations, kTolerance);
     solver.first_radius = kFirstRadius;
-    solver.line_search = LineSearch::ByResiduals;
     const LeastSquaresReport solved = solve(problem, residuals.off_bounds(one.x), solver);
     one.cost = solved.cost;
     if (std::isfinite(solved.cost)) one.x = solved.x;
@@ -340,12 +339,11 @@ LeastSquaresReport solve_weighed(const InPlantSetup& setup, PlantResiduals& resi
   constexpr int kRounds = 4;
   const bool goes_on = has_noisy_inputs(setup);  // from near by is then enough
   const double same = goes_on ? 0.1 : 0.03, tolerance = goes_on ? 1e-4 : 1e-7;
-  LeastSquaresOptions solver = solver_options(options, options.iterations, tolerance);
-  solver.line_search = LineSearch::None;
   LeastSquaresReport solved;
   for (int round = 0; round < kRounds; ++round) {
     options.monitor.report("fit, round " + std::to_string(round + 1), 0.4 + 0.1 * round);
-    solved = solve(residuals.problem(0, options.threads), std::move(x), solver);
+    solved = solve(residuals.problem(0, options.threads), std::move(x),
+                   solver_options(options, options.iterations, tolerance));
     if (!std::isfinite(solved.cost) || residuals.reweigh(solved.x) <= same) break;
     x = solved.x;
   }

@@ -148,7 +148,6 @@ ceres::Solver::Options ceres_options(const LeastSquaresOptions& options,
   result.function_tolerance = options.function_tolerance;
   if (options.line_search == LineSearch::ByResiduals)
     result.line_search_interpolation_type = ceres::QUADRATIC;
-  if (options.line_search == LineSearch::None) result.max_num_line_search_step_size_iterations = 0;
   result.max_num_consecutive_invalid_steps = 50;  // residuals may fail in a large part of the space
   result.update_state_every_iteration = true;     // so that x is the best one also after a failure
   result.logging_type = ceres::SILENT;

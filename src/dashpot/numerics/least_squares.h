@@ -27,8 +27,7 @@ struct LeastSquaresProblem {
 /// How a step within bounds is shortened along itself before it is judged.
 enum class LineSearch {
   ByJacobians,  ///< at a Jacobian for each trial
-  ByResiduals,  ///< at the residuals alone for each
-  None          ///< it is not: the trust region alone decides
+  ByResiduals   ///< at the residuals alone for each
 };
 
 /// When to stop and how to differentiate.
