@@ -475,6 +475,9 @@ bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t 
                                          std::span<const std::span<double>> columns) const {
   const PlantCase& one = cases_->all[place];
   const std::span<const double> own = x.subspan(plant_unknowns(), law_->size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (!columns[k].empty() && difference_step(x, plant_unknowns() + group.first + k, false) == 0)
+      return false;
   const double step = law_->step(own, group) * (other_way ? -1 : 1);
   const std::shared_ptr<const DamperModel> damper =
       in_recording(law_->moved(own, group, step), one);

@@ -29,17 +29,20 @@ class ComesBack {
   using Shown = std::vector<std::vector<double>>;
 
   ComesBack(const Shown* other, Shown& shown)
-      : other_(other), shown_(shown), largest_(shown.size()) {}
+      : other_(other), shown_(shown), largest_(shown.size()), reach_(shown.size()) {}
 
   /// To be asked at each sample, once it is shown; then the rest is that of the other.
   bool at(std::size_t sample) {
     if (!other_) return false;
     constexpr double kForgotten = 1e-6;  // of the largest difference
+    constexpr double kHardly = 0.1;      // of what is shown; beyond, nothing is taken for forgotten
     constexpr std::size_t kFewest = 200, kShare = 2;
     for (std::size_t s = 0; s < shown_.size(); ++s) {
       const double apart = std::abs(shown_[s][sample] - (*other_)[s][sample]);
       largest_[s] = std::max(largest_[s], apart);
-      if (apart > kForgotten * largest_[s]) apart_until_ = sample + 1;
+      reach_[s] = std::max(reach_[s], std::abs((*other_)[s][sample]));
+      if (apart > kForgotten * largest_[s] || largest_[s] > kHardly * reach_[s])
+        apart_until_ = sample + 1;
     }
 
     // For half as long again as it took, so that no swing of a slow motion passes for its end.
@@ -54,7 +57,7 @@ class ComesBack {
  private:
   const Shown* other_;
   Shown& shown_;
-  std::vector<double> largest_;
+  std::vector<double> largest_, reach_;
   std::size_t apart_until_ = 0;
 };
 
