@@ -118,6 +118,35 @@ double way_between(std::span<const double> from, const LeastSquaresReport& to, s
   return furthest;
 }
 
+/// Solves it until the first `count` unknowns stay within so many of their standard deviations:
+/// what moves the cost then are nuisances that next to nothing tells.
+LeastSquaresReport solve_until_near(const LeastSquaresProblem& problem, std::vector<double> x,
+                                    std::size_t count, double near, const InPlantOptions& options) {
+  constexpr int kPieces = 6, kIterations = 2;
+  LeastSquaresOptions solver;
+  solver.max_iterations = kIterations;
+  solver.function_tolerance = 1e-6;
+  solver.threads = options.threads;
+  solver.line_search = LineSearch::ByResiduals;
+  solver.on_iteration = [&](int, double, std::span<const double>) { options.monitor.check(); };
+  LeastSquaresReport solved;
+  int iterations = 0;
+  for (int piece = 0; piece < kPieces; ++piece) {
+    solved = solve(problem, x, solver);
+    iterations += solved.iterations;
+    if (!std::isfinite(solved.cost) || solved.part_matrices.empty() || solved.converged) break;
+    if (way_between(x, solved, count) < near) {
+      solved.converged = true;
+      solved.message =
+          "The unknowns stay within " + format_number(near) + " of their standard deviations.";
+      break;
+    }
+    x = solved.x;
+  }
+  solved.iterations = iterations;
+  return solved;
+}
+
 /// The columns and residuals of a problem at the end of its search.
 struct EndOfSearch {
   std::vector<double> residuals;
@@ -282,14 +311,8 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
                                       PlantCases& cases, PlantResiduals& residuals,
                                       LeastSquaresReport solved, NoisyFit& fit,
                                       InPlantReport& report) {
-  constexpr int kTurns = 15, kIterations = 10;
-  constexpr double kTolerance = 1e-6, kNear = 3, kStays = 0.2;  // of a standard deviation
-  LeastSquaresOptions solver;
-  solver.max_iterations = kIterations;
-  solver.function_tolerance = kTolerance;
-  solver.threads = options.threads;
-  solver.on_iteration = [&](int, double, std::span<const double>) { options.monitor.check(); };
-
+  constexpr int kTurns = 15;
+  constexpr double kNear = 3, kStays = 0.2, kShort = 0.1;  // of a standard deviation
   fit.cases = cases;
   fit.found.sources = first_noise(setup, cases, residuals, scale);
   int iterations = 0;
@@ -311,7 +334,8 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
     keep_residuals(traces, traces_at(residuals, solved.x, options.threads), cases);
     residuals.look_at_lines(&fit.noise);
     const LeastSquaresProblem problem = residuals.problem(0, options.threads);
-    LeastSquaresReport next = solve(problem, solved.x, solver);
+    LeastSquaresReport next =
+        solve_until_near(problem, solved.x, residuals.first_state(), kShort, options);
     if (!std::isfinite(next.cost) || next.part_matrices.empty()) break;
     const double way = way_between(solved.x, next, residuals.first_state());
     iterations += next.iterations;

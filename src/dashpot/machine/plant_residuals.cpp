@@ -302,33 +302,49 @@ std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, st
   return state;
 }
 
-bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
-                         const DamperModel& damper, const PlantCase& one, std::size_t place,
-                         std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                         Shown& shown, const RunBeside& beside) const {
+std::vector<double> PlantResiduals::delays_at(std::span<const double> x) const {
+  std::vector<double> delays;
+  for (const PlantSensor& sensor : setup_->sensors) delays.push_back(sensor.delay);
+  for (std::size_t d = 0; d < delays_.size(); ++d)
+    delays[delays_[d]] = size_[first_delay_ + d] * x[first_delay_ + d];
+  return delays;
+}
+
+/// What the plant does, before the sensors' filters and delays; where there are any a little
+/// further, so that it is known between samples.
+bool PlantResiduals::move(std::span<const double> x, const DrivenPlant& plant,
+                          const DamperModel& damper, const PlantCase& one, std::size_t place,
+                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                          Shown& shown, const RunBeside& beside) const {
   std::vector<double> state = state_at_first(x, place, plant, damper);
   if (one.driving.method == PlantMethod::StraightForce) plant.settle(damper, one.driving, state);
-
-  // What a late sensor shows is older, behind a filter too; a little further, so that it is known
-  // between samples.
-  std::vector<double> delays;
-  for (std::size_t s = 0; s < sensors_.size(); ++s) {
-    delays.push_back(setup_->sensors[s].delay);
-    for (std::size_t d = 0; d < delays_.size(); ++d)
-      if (delays_[d] == s) delays[s] = size_[first_delay_ + d] * x[first_delay_ + d];
-  }
-  bool is_late = std::ranges::any_of(delays, [](double delay) { return delay != 0; });
-  for (const PlantSensor& sensor : setup_->sensors) is_late |= sensor.filter.cutoff > 0;
+  const bool may_be_late =
+      !delays_.empty() || std::ranges::any_of(setup_->sensors, [](const PlantSensor& sensor) {
+        return sensor.delay != 0 || sensor.filter.cutoff > 0;
+      });
   const std::size_t further =
-      is_late ? std::min(samples + kSamplesAround, one.driving.samples) : samples;
-  if (!plant.run(damper, one.driving, further, sensors, state, shown, beside)) return false;
-  const double sample_time = one.driving.sample_time;
+      may_be_late ? std::min(samples + kSamplesAround, one.driving.samples) : samples;
+  return plant.run(damper, one.driving, further, sensors, state, shown, beside);
+}
+
+/// What comes out of a sensor's filter, and of a late one later.
+void PlantResiduals::sense(std::span<const double> x, double sample_time, std::size_t samples,
+                           Shown& shown) const {
+  const std::vector<double> delays = delays_at(x);
   for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s) {
     const SensorFilter& filter = setup_->sensors[s].filter;
     if (filter.cutoff > 0) shown[s] = behind(filter, shown[s], sample_time);
     if (delays[s] != 0) shown[s] = delayed(shown[s], sample_time, delays[s]);
   }
   for (std::vector<double>& one_shown : shown) one_shown.resize(samples);
+}
+
+bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
+                         const DamperModel& damper, const PlantCase& one, std::size_t place,
+                         std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                         Shown& shown) const {
+  if (!move(x, plant, damper, one, place, samples, sensors, shown)) return false;
+  sense(x, one.driving.sample_time, samples, shown);
   return true;
 }
 
@@ -349,21 +365,22 @@ std::size_t PlantResiduals::part_of(std::size_t place, std::size_t samples) cons
   return at;
 }
 
-/// The residuals of one recording, which begin at r[0].
-bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
-                                  std::span<double> r, const RunBeside& beside) const {
+/// The law in one recording: a current that never changes leaves constant parameters, which are
+/// quicker.
+std::shared_ptr<const DamperModel> PlantResiduals::in_recording(LawModel law,
+                                                                const PlantCase& one) const {
+  if (!one.steady) return std::make_shared<LawModel>(std::move(law));
+  std::vector<double> parameters(law.law().params.size());
+  law.parameters_at(one.driving.current.front(), parameters.data());
+  return std::make_shared<LawModel>(LawModel::constant(law.law(), parameters));
+}
+
+/// The residuals of one recording, which begin at r[0], of what its plant shows before its sensors.
+bool PlantResiduals::compare(std::span<const double> x, std::size_t place, std::size_t samples,
+                             Shown shown, std::span<double> r) const {
   const PlantCase& one = cases_->all[place];
   const std::size_t end = end_of(one, samples), length = end - one.first;
-
-  // A current that never changes leaves constant parameters, which are quicker.
-  std::shared_ptr<const DamperModel> damper = model(x);
-  if (const LawModel* law = model_as<LawModel>(*damper); law_ && one.steady) {
-    std::vector<double> parameters(law->law().params.size());
-    law->parameters_at(one.driving.current.front(), parameters.data());
-    damper = std::make_shared<LawModel>(LawModel::constant(law->law(), parameters));
-  }
-  Shown shown;
-  if (!run(x, equations(x), *damper, one, place, end, sensors_, shown, beside)) return false;
+  sense(x, one.driving.sample_time, end, shown);
   std::vector<double> samples_beyond(noise_ ? sensors_.size() * length : 0);
   const std::span<double> beyond = noise_ ? std::span(samples_beyond) : r;
   for (std::size_t s = 0; s < sensors_.size(); ++s) {
@@ -378,11 +395,26 @@ bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, 
   return true;
 }
 
+/// The same at x.
+bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
+                                  std::span<double> r, KnownRun* keep) const {
+  const PlantCase& one = cases_->all[place];
+  RunBeside beside;
+  if (keep && one.driving.method == PlantMethod::StraightForce) beside.keep = &keep->tangent;
+  const std::shared_ptr<const DamperModel> damper =
+      law_ ? in_recording(this->damper(x), one) : model(x);
+  Shown shown;
+  if (!move(x, equations(x), *damper, one, place, end_of(one, samples), sensors_, shown, beside))
+    return false;
+  if (keep) keep->shown = shown;
+  return compare(x, place, samples, std::move(shown), r);
+}
+
 bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples, std::span<double> r,
                               int threads) const {
   std::atomic<bool> complete = true;
   parallel_for(cases_->all.size(), threads, [&](std::size_t c) {
-    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)), {})) complete = false;
+    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)))) complete = false;
   });
   return complete;
 }
@@ -400,31 +432,100 @@ double PlantResiduals::difference_step(std::span<const double> x, std::size_t k,
 
 /// A recording's rows of one column, where r holds those of the residuals at x.
 bool PlantResiduals::difference(std::span<const double> x, std::size_t place, std::size_t samples,
-                                std::span<const double> r, const RunBeside& beside, std::size_t k,
-                                double step, std::span<double> column) const {
+                                std::span<const double> r, const KnownRun& at, std::size_t k,
+                                bool other_way, std::span<double> column) const {
   if (!acts_on(k, place)) {
     std::ranges::fill(column, 0.0);
     return true;
   }
+  const double step = difference_step(x, k, other_way);
+  if (step == 0) return false;
   std::vector<double> moved(x.begin(), x.end());
   moved[k] += step;
-  if (!evaluate_one(moved, place, samples, column, beside)) return false;
+
+  // A delay leaves the plant as it is; another beginning is forgotten.
+  const PlantCase& one = cases_->all[place];
+  Shown shown;
+  if (k >= first_delay_) {
+    shown = at.shown;
+  } else {
+    RunBeside beside;
+    if (one.driving.method == PlantMethod::StraightForce) beside.follow = &at.tangent;
+    if (k >= first_state_) beside.comes_back_to = &at.shown;
+    const std::shared_ptr<const DamperModel> damper =
+        law_ ? in_recording(this->damper(moved), one) : model(moved);
+    if (!move(moved, equations(moved), *damper, one, place, end_of(one, samples), sensors_, shown,
+              beside))
+      return false;
+  }
+  if (!compare(moved, place, samples, std::move(shown), column)) return false;
   for (std::size_t i = 0; i < r.size(); ++i) column[i] = (column[i] - r[i]) / step;
+  return true;
+}
+
+/// The unknowns of the law's parameter to which k belongs, where they act as one: at a current that
+/// never changes.
+std::optional<LawUnknowns::Group> PlantResiduals::moved_as_one(std::size_t k,
+                                                               std::size_t place) const {
+  if (!law_ || !is_of_law(k) || !cases_->all[place].steady || law_->slows_filter()) return {};
+  const std::size_t own = k - plant_unknowns();
+  for (const LawUnknowns::Group& group : law_->groups())
+    if (own >= group.first && own < group.first + group.count) return group;
+  return {};
+}
+
+/// Likewise of all columns of such a parameter, at the price of one; a column may be empty.
+bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t place,
+                                         std::size_t samples, std::span<const double> r,
+                                         const KnownRun& at, const LawUnknowns::Group& group,
+                                         bool other_way,
+                                         std::span<const std::span<double>> columns) const {
+  const PlantCase& one = cases_->all[place];
+  const std::span<const double> own = x.subspan(plant_unknowns(), law_->size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (!columns[k].empty() && difference_step(x, plant_unknowns() + group.first + k, false) == 0)
+      return false;
+  const double step = law_->step(own, group) * (other_way ? -1 : 1);
+  const std::shared_ptr<const DamperModel> damper =
+      in_recording(law_->moved(own, group, step), one);
+  RunBeside beside;
+  if (one.driving.method == PlantMethod::StraightForce) beside.follow = &at.tangent;
+  Shown shown;
+  std::vector<double> moved(r.size());
+  if (!move(x, equations(x), *damper, one, place, end_of(one, samples), sensors_, shown, beside) ||
+      !compare(x, place, samples, std::move(shown), moved))
+    return false;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double slope = law_->slope(own, group, k, one.driving.current.front()) / step;
+    for (std::size_t i = 0; i < columns[k].size(); ++i) columns[k][i] = (moved[i] - r[i]) * slope;
+  }
   return true;
 }
 
 bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                               std::span<double* const> columns, int threads) const {
   const std::size_t recordings = cases_->all.size(), n = x.size();
-  const bool is_straight = cases_->method == PlantMethod::StraightForce;
-  std::vector<RunTangent> tangents(is_straight ? recordings : 0);
+  std::vector<KnownRun> runs(recordings);
   const auto rows_of = [&](std::size_t c, std::span<double> all) {
     return all.subspan(part_of(c, samples), residuals_of(c, samples));
   };
-  const auto differ = [&](std::size_t c, std::size_t k, double step) {
-    const RunBeside beside{.follow = is_straight ? &tangents[c] : nullptr};
-    return step != 0 && difference(x, c, samples, rows_of(c, r), beside, k, step,
-                                   rows_of(c, {columns[k], r.size()}));
+  const auto column = [&](std::size_t c, std::size_t k) {
+    return columns[k] ? rows_of(c, {columns[k], r.size()}) : std::span<double>();
+  };
+
+  // Column k of a recording; the first of those that act as one makes all of them.
+  const auto differ = [&](std::size_t c, std::size_t k, bool other_way) {
+    const auto group = moved_as_one(k, c);
+    if (!group)
+      return !columns[k] ||
+             difference(x, c, samples, rows_of(c, r), runs[c], k, other_way, column(c, k));
+    const std::size_t first = plant_unknowns() + group->first;
+    std::vector<std::span<double>> own;
+    for (std::size_t other = first; other < first + group->count; ++other)
+      own.push_back(column(c, other));
+    const bool is_asked = std::ranges::any_of(own, [](const auto& rows) { return !rows.empty(); });
+    return k != first || !is_asked ||
+           difference_of_group(x, c, samples, rows_of(c, r), runs[c], *group, other_way, own);
   };
 
   // The recordings at x, and then column by column: a thread that finds no recording left goes on
@@ -432,26 +533,23 @@ bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, st
   // recording waits for one that is running.
   std::deque<std::latch> passed;
   for (std::size_t c = 0; c < recordings; ++c) passed.emplace_back(1);
-  std::vector<std::atomic<bool>> is_finite(recordings), is_lost(n);
+  std::vector<std::atomic<bool>> is_finite(recordings), is_lost(recordings * n);
   parallel_for(recordings * (1 + n), threads, [&](std::size_t task) {
     if (task < recordings) {
       const OpensLatch at_the_end{passed[task]};
-      is_finite[task] = evaluate_one(x, task, samples, rows_of(task, r),
-                                     {.keep = is_straight ? &tangents[task] : nullptr});
+      is_finite[task] = evaluate_one(x, task, samples, rows_of(task, r), &runs[task]);
       return;
     }
     const std::size_t c = (task - recordings) / n, k = (task - recordings) % n;
-    if (!columns[k]) return;
     passed[c].wait();
-    if (is_finite[c] && !differ(c, k, difference_step(x, k, false))) is_lost[k] = true;
+    if (is_finite[c] && !differ(c, k, false)) is_lost[c * n + k] = true;
   });
   if (!std::ranges::all_of(is_finite, [](const auto& one) { return one.load(); })) return false;
 
-  // The other way where the plant diverges on the first one, in any recording.
+  // The other way where the plant diverges on the first one.
   std::atomic<bool> complete = true;
-  parallel_for(n, threads, [&](std::size_t k) {
-    for (std::size_t c = 0; c < recordings && is_lost[k]; ++c)
-      if (!differ(c, k, difference_step(x, k, true))) complete = false;
+  parallel_for(recordings * n, threads, [&](std::size_t task) {
+    if (is_lost[task] && !differ(task / n, task % n, true)) complete = false;
   });
   return complete;
 }

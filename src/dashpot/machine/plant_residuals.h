@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -119,19 +120,38 @@ class PlantResiduals : public InPlantUnknowns {
                                      const DrivenPlant& plant, const DamperModel& damper) const;
   bool run(std::span<const double> x, const DrivenPlant& plant, const DamperModel& damper,
            const PlantCase& one, std::size_t place, std::size_t samples,
-           std::span<const PlantSensorPlace> sensors, Shown& shown,
-           const RunBeside& beside = {}) const;
+           std::span<const PlantSensorPlace> sensors, Shown& shown) const;
+  bool move(std::span<const double> x, const DrivenPlant& plant, const DamperModel& damper,
+            const PlantCase& one, std::size_t place, std::size_t samples,
+            std::span<const PlantSensorPlace> sensors, Shown& shown,
+            const RunBeside& beside = {}) const;
+  void sense(std::span<const double> x, double sample_time, std::size_t samples,
+             Shown& shown) const;
+  std::vector<double> delays_at(std::span<const double> x) const;
   std::size_t end_of(const PlantCase& one, std::size_t samples) const;
   bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r,
                 int threads) const;
+  /// How a recording is run at x, for those that differ hardly from it.
+  struct KnownRun {
+    RunTangent tangent;
+    Shown shown;  ///< before its sensors
+  };
   bool evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
-                    std::span<double> r, const RunBeside& beside) const;
+                    std::span<double> r, KnownRun* keep = nullptr) const;
+  bool compare(std::span<const double> x, std::size_t place, std::size_t samples, Shown shown,
+               std::span<double> r) const;
+  std::shared_ptr<const DamperModel> in_recording(LawModel law, const PlantCase& one) const;
   bool jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                 std::span<double* const> columns, int threads) const;
+  std::optional<LawUnknowns::Group> moved_as_one(std::size_t k, std::size_t place) const;
   double difference_step(std::span<const double> x, std::size_t k, bool other_way) const;
   bool difference(std::span<const double> x, std::size_t place, std::size_t samples,
-                  std::span<const double> r, const RunBeside& beside, std::size_t k, double step,
+                  std::span<const double> r, const KnownRun& at, std::size_t k, bool other_way,
                   std::span<double> column) const;
+  bool difference_of_group(std::span<const double> x, std::size_t place, std::size_t samples,
+                           std::span<const double> r, const KnownRun& at,
+                           const LawUnknowns::Group& group, bool other_way,
+                           std::span<const std::span<double>> columns) const;
   std::size_t residuals_of(std::size_t place, std::size_t samples) const;
   std::size_t part_of(std::size_t place, std::size_t samples) const;
   bool keeps_states_near() const;

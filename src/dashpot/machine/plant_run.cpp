@@ -23,6 +23,44 @@ void require_linear(const Plant& plant) {
   if (plant.tyres_may_lift) refuse("its tyres may lift", "all but the damper must be linear");
 }
 
+/// Whether a run has forgotten its beginning, and with it what it differs in from another one.
+class ComesBack {
+ public:
+  using Shown = std::vector<std::vector<double>>;
+
+  ComesBack(const Shown* other, Shown& shown)
+      : other_(other), shown_(shown), largest_(shown.size()), reach_(shown.size()) {}
+
+  /// To be asked at each sample, once it is shown; then the rest is that of the other.
+  bool at(std::size_t sample) {
+    if (!other_) return false;
+    constexpr double kForgotten = 1e-6;  // of the largest difference
+    constexpr double kHardly = 0.1;      // of what is shown; beyond, nothing is taken for forgotten
+    constexpr std::size_t kFewest = 200, kShare = 2;
+    for (std::size_t s = 0; s < shown_.size(); ++s) {
+      const double apart = std::abs(shown_[s][sample] - (*other_)[s][sample]);
+      largest_[s] = std::max(largest_[s], apart);
+      reach_[s] = std::max(reach_[s], std::abs((*other_)[s][sample]));
+      if (apart > kForgotten * largest_[s] || largest_[s] > kHardly * reach_[s])
+        apart_until_ = sample + 1;
+    }
+
+    // For half as long again as it took, so that no swing of a slow motion passes for its end.
+    if (sample < apart_until_ + std::max(kFewest, apart_until_ / kShare)) return false;
+    for (std::size_t s = 0; s < shown_.size(); ++s)
+      std::copy((*other_)[s].begin() + static_cast<std::ptrdiff_t>(sample),
+                (*other_)[s].begin() + static_cast<std::ptrdiff_t>(shown_[s].size()),
+                shown_[s].begin() + static_cast<std::ptrdiff_t>(sample));
+    return true;
+  }
+
+ private:
+  const Shown* other_;
+  Shown& shown_;
+  std::vector<double> largest_, reach_;
+  std::size_t apart_until_ = 0;
+};
+
 }  // namespace
 
 std::string unit_of(PlantQuantity quantity) {
@@ -238,10 +276,10 @@ bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
 bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
                       std::span<const PlantSensorPlace> sensors, std::span<double> state,
                       std::vector<std::vector<double>>& shown, const RunBeside& beside) const {
-  if (driving.method == PlantMethod::RungeKutta)
-    return run(std::vector<const DamperModel*>(dampers_.size(), &damper), driving, samples, sensors,
-               state, shown);
   shown.assign(sensors.size(), std::vector<double>(samples));
+  if (driving.method == PlantMethod::RungeKutta)
+    return run_by_runge_kutta(std::vector<const DamperModel*>(dampers_.size(), &damper), driving,
+                              samples, sensors, state, shown, beside);
   return run_under_straight_force(damper, driving, samples, sensors, state, shown, beside);
 }
 
@@ -250,14 +288,15 @@ bool DrivenPlant::run(std::span<const DamperModel* const> dampers, const PlantDr
                       std::span<double> state, std::vector<std::vector<double>>& shown) const {
   assert(dampers.size() == dampers_.size() && driving.method == PlantMethod::RungeKutta);
   shown.assign(sensors.size(), std::vector<double>(samples));
-  return run_by_runge_kutta(dampers, driving, samples, sensors, state, shown);
+  return run_by_runge_kutta(dampers, driving, samples, sensors, state, shown, {});
 }
 
 bool DrivenPlant::run_by_runge_kutta(std::span<const DamperModel* const> dampers,
                                      const PlantDriving& driving, std::size_t samples,
                                      std::span<const PlantSensorPlace> sensors,
                                      std::span<double> state,
-                                     std::vector<std::vector<double>>& shown) const {
+                                     std::vector<std::vector<double>>& shown,
+                                     const RunBeside& beside) const {
   using States = std::array<double, kMostStates>;
   const std::size_t count = state.size();
   const double h = driving.sample_time / static_cast<double>(driving.steps);
@@ -268,6 +307,8 @@ bool DrivenPlant::run_by_runge_kutta(std::span<const DamperModel* const> dampers
     return between.data();
   };
 
+  ComesBack comes_back(beside.comes_back_to, shown);
+
   // The inputs are known at the start, middle and end of every step.
   for (std::size_t point = 0, step = 0;; point += 2, ++step) {
     rates(dampers, driving, point, state.data(), first.data(), forces);
@@ -275,7 +316,7 @@ bool DrivenPlant::run_by_runge_kutta(std::span<const DamperModel* const> dampers
       const std::size_t sample = step / driving.steps;
       if (!show(driving, sample, sensors, state.data(), first.data() + size_, forces.data(), shown))
         return false;
-      if (sample + 1 == samples) return true;
+      if (sample + 1 == samples || comes_back.at(sample)) return true;
     }
     rates(dampers, driving, point + 1, moved(first, h / 2), second.data(), on_the_way);
     rates(dampers, driving, point + 1, moved(second, h / 2), third.data(), on_the_way);
@@ -317,6 +358,7 @@ bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const Plan
     forces[d] = next[d] = damper.force(from[d], states[d]);
   }
 
+  ComesBack comes_back(beside.comes_back_to, shown);
   std::array<double, kMostStates> end, acceleration;
   for (std::size_t point = 0;; ++point) {
     if (point % driving.steps == 0) {
@@ -324,7 +366,7 @@ bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const Plan
       accelerations(driving, point, state.data(), forces.data(), acceleration.data());
       if (!show(driving, sample, sensors, state.data(), acceleration.data(), forces.data(), shown))
         return false;
-      if (sample + 1 == samples) return true;
+      if (sample + 1 == samples || comes_back.at(sample)) return true;
     }
 
     // Where the plant ends without forces at the end; each damper's force there is that which it

@@ -87,11 +87,15 @@ struct PlantDriving {
   }
 };
 
-/// Runs under a force that goes straight: one that keeps its steps in a tangent, or one that
-/// differs hardly from it and follows it at half the price.
+/// Runs of which one differs hardly from the other.
 struct RunBeside {
+  /// Under a force that goes straight: one that keeps its steps in a tangent, or one that follows
+  /// it at half the price.
   RunTangent* keep = nullptr;
   const RunTangent* follow = nullptr;
+  /// What the other one shows, by a run that differs from it in its beginning alone: once that is
+  /// forgotten, the rest is taken from there.
+  const std::vector<std::vector<double>>* comes_back_to = nullptr;
 };
 
 /// Where a damper stands in a plant of n coordinates.
@@ -117,7 +121,8 @@ class DrivenPlant {
   std::vector<double> at_rest(const DamperModel& damper, double drive) const;
   /// Runs the plant with such dampers from `state` (q, q', states of each damper) over the first so
   /// many samples; `state` is then that at the last of them. Per sensor `shown` gets the samples.
-  /// False where one of them is not finite. By Runge-Kutta the damper must be one that flows.
+  /// False where one of them is not finite. By Runge-Kutta the damper must be one that flows. Where
+  /// it comes back to another run, `state` is that at which it was left.
   bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, std::span<double> state,
            std::vector<std::vector<double>>& shown, const RunBeside& beside = {}) const;
@@ -155,7 +160,8 @@ class DrivenPlant {
 
   bool run_by_runge_kutta(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
                           std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                          std::span<double> state, std::vector<std::vector<double>>& shown) const;
+                          std::span<double> state, std::vector<std::vector<double>>& shown,
+                          const RunBeside& beside) const;
   bool run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
                                 std::size_t samples, std::span<const PlantSensorPlace> sensors,
                                 std::span<double> state, std::vector<std::vector<double>>& shown,

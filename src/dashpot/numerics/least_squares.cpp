@@ -146,6 +146,8 @@ ceres::Solver::Options ceres_options(const LeastSquaresOptions& options,
   result.max_num_iterations = options.max_iterations;
   result.initial_trust_region_radius = options.first_radius;
   result.function_tolerance = options.function_tolerance;
+  if (options.line_search == LineSearch::ByResiduals)
+    result.line_search_interpolation_type = ceres::QUADRATIC;
   result.max_num_consecutive_invalid_steps = 50;  // residuals may fail in a large part of the space
   result.update_state_every_iteration = true;     // so that x is the best one also after a failure
   result.logging_type = ceres::SILENT;

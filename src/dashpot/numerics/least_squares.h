@@ -24,6 +24,12 @@ struct LeastSquaresProblem {
       jacobian;
 };
 
+/// How a step within bounds is shortened along itself before it is judged.
+enum class LineSearch {
+  ByJacobians,  ///< at a Jacobian for each trial
+  ByResiduals   ///< at the residuals alone for each
+};
+
 /// When to stop and how to differentiate.
 struct LeastSquaresOptions {
   int max_iterations = 100;
@@ -31,9 +37,10 @@ struct LeastSquaresOptions {
   double difference_step = 1e-6;     ///< relative to max(|x|, 1)
   double first_radius = 1e4;         ///< of the trust region; small ones hold the first steps back
   int threads = 0;                   ///< results do not depend on it
-  bool normal_equations = false;     ///< quicker with many unknowns, at half the digits
-  int hopeless_after = 0;            ///< gives up when after so many iterations (0: never) ...
-  double hopeless_cost = 0;          ///< ... the cost is still above this
+  LineSearch line_search = LineSearch::ByJacobians;
+  bool normal_equations = false;  ///< quicker with many unknowns, at half the digits
+  int hopeless_after = 0;         ///< gives up when after so many iterations (0: never) ...
+  double hopeless_cost = 0;       ///< ... the cost is still above this
   /// `x`: the best so far; may throw to stop.
   std::function<void(int iteration, double cost, std::span<const double> x)> on_iteration;
 };
