@@ -339,11 +339,12 @@ LeastSquaresReport solve_weighed(const InPlantSetup& setup, PlantResiduals& resi
   constexpr int kRounds = 4;
   const bool goes_on = has_noisy_inputs(setup);  // from near by is then enough
   const double same = goes_on ? 0.1 : 0.03, tolerance = goes_on ? 1e-4 : 1e-7;
+  LeastSquaresOptions solver = solver_options(options, options.iterations, tolerance);
+  if (goes_on) solver.line_search = LineSearch::ByResiduals;
   LeastSquaresReport solved;
   for (int round = 0; round < kRounds; ++round) {
     options.monitor.report("fit, round " + std::to_string(round + 1), 0.4 + 0.1 * round);
-    solved = solve(residuals.problem(0, options.threads), std::move(x),
-                   solver_options(options, options.iterations, tolerance));
+    solved = solve(residuals.problem(0, options.threads), std::move(x), solver);
     if (!std::isfinite(solved.cost) || residuals.reweigh(solved.x) <= same) break;
     x = solved.x;
   }
