@@ -112,7 +112,7 @@ TEST_CASE("in plant: where a recording begins quietly, starts are looked for whe
 
   CHECK(lively_parts(setup, {pushed_by([](double) { return 1.0; }, 20)}, 2500).empty());
   CHECK(lively_parts(setup, {recording}, 5000).empty());  // the horizon reaches as far as all
-  CHECK(lively_parts(setup, {recording}, 5).empty());  // too few samples tell nothing, and end
+  CHECK(lively_parts(setup, {recording}, 5).empty());     // too few samples tell nothing, and end
   InPlantSetup rests = setup;
   rests.from_rest = true;
   CHECK(lively_parts(rests, {recording}, 2500).empty());

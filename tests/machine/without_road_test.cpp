@@ -155,8 +155,7 @@ TEST_CASE("without a road: sensors behind filters, which the plant states or doe
   std::string text = with_filter(kUnmeasuredCar, "body", "{cutoff: 50 Hz, order: 4}");
   text = with_filter(with_filter(text, "wheel", "50 Hz"), "level", "30 Hz");
   const InPlantSetup stated = parse_in_plant_setup(text, "car.yaml");
-  const auto recordings =
-      rides_of(stated, {{"sprung_mass", 387}, {"tyre_stiffness", 295200}}, 12);
+  const auto recordings = rides_of(stated, {{"sprung_mass", 387}, {"tyre_stiffness", 295200}}, 12);
   const auto fit = [&](const InPlantSetup& setup) {
     InPlantReport report = identify_in_plant(find_law("tanh_kwok"), setup, recordings, {});
     REQUIRE(report.model);
