@@ -287,15 +287,18 @@ std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InP
   return beyond;
 }
 
-/// Whether the force leaps where the stroke crosses 0, at some tenth of the greatest speed.
-bool leaps_at_zero(const DamperModel& damper, const ObserverScale& scale, double drive) {
-  constexpr double kHardly = 1e-9, kTenth = 0.1, kLeap = 0.02;  // of stroke, speed and force
-  std::vector<double> z(damper.state_size());
-  damper.rest({0, 0, drive}, z);
-  const auto force = [&](double x) {
-    return damper.force({x * scale.stroke, kTenth * scale.speed, drive}, z);
-  };
-  return std::abs(force(kHardly) - force(-kHardly)) > kLeap * scale.force;
+/// Whether the force leaps at some drive where the stroke crosses 0, while nothing moves.
+bool leaps_at_zero(const ObservedDamper& damper, const ObserverScale& scale) {
+  constexpr double kHardly = 1e-9, kLeap = 0.01;  // of stroke and force
+  const auto& [model, domain] = damper;
+  std::vector<double> z(model->state_size());
+  for (const double drive :
+       {domain.current_min, (domain.current_min + domain.current_max) / 2, domain.current_max}) {
+    model->rest({0, 0, drive}, z);
+    const auto force = [&](double x) { return model->force({x * scale.stroke, 0, drive}, z); };
+    if (std::abs(force(kHardly) - force(-kHardly)) > kLeap * scale.force) return true;
+  }
+  return false;
 }
 
 /// Sensors whose zeros came out far from where they were looked for: the filter gives up a part of
@@ -577,7 +580,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
   const bool leaps = std::ranges::any_of(
-      models, [&](const auto& model) { return leaps_at_zero(*model, scale, drive); });
+      dampers, [&](const ObservedDamper& one) { return leaps_at_zero(one, scale); });
   std::ranges::move(far_zeros(setup, scale, leaps, report), std::back_inserter(report.warnings));
   std::ranges::move(beyond_models(dampers, setup, samples, report),
                     std::back_inserter(report.warnings));
