@@ -90,6 +90,7 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
   CHECK(contains(refused(with("0.2 mm", "-1 mm")), "noise is not above 0"));
   CHECK(contains(refused(with("30 Hz", "0 Hz")), "cut-off is not above 0 Hz"));
   CHECK(contains(refused(with("30 Hz", "30 ms")), "Hz"));
+  CHECK(contains(refused(with("30 Hz", "unknown")), "cut-off is not looked for; the cut-off in"));
   CHECK(contains(refused(with("30 Hz", "{cutoff: 30 Hz, order: 2.5}")), "order is 2.5; 1 to 8"));
   CHECK(contains(refused(with("30 Hz", "{cutof: 30 Hz}")), "cutof"));
   CHECK(contains(refused(with("start: rest", "start: moving")), "rest or unknown"));

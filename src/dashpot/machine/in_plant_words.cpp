@@ -365,6 +365,9 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
 /// "50 Hz", or {cutoff: 50 Hz, order: 4}.
 SensorFilter read_filter(const Value& value) {
   SensorFilter filter;
+  if (value.kind() == Value::Kind::String && value.as_string() == "unknown")
+    throw Error(value.where(), "filter: its cut-off is not looked for",
+                "the cut-off in Hz, or 'delay: unknown', which a filter nearly is");
   if (value.kind() == Value::Kind::Object) {
     ObjectReader reader(value, "a filter");
     filter.cutoff = read_quantity(reader.required("cutoff"), "Hz");

@@ -76,7 +76,10 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
         static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
     if (one.training < one.first + kFewest)
       throw Error(recording.name, "leaves " + std::to_string(one.training) + " samples to fit",
-                  "at least " + std::to_string(kFewest) + " behind those that are skipped");
+                  "at least " + std::to_string(kFewest) + " behind " +
+                      (skip > setup.skip ? "the " + format_number(skip, 3) +
+                                               " s in which sensors' filters forget what was before"
+                                         : "those that are skipped"));
 
     // The inputs between the samples.
     for (const PlantInputChannel& input : setup.inputs) {
