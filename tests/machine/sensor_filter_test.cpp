@@ -50,5 +50,12 @@ TEST_CASE("a sensor's filter: its cut-off, its delay and its memory") {
   }
   CHECK_CLOSE(delay_of({50, 2}), std::sqrt(2.0) / (2 * kPi * 50), 1e-12, 0);
   CHECK_CLOSE(memory_of({50, 1}), std::log(1000.0) / (2 * kPi * 50), 1e-12, 0);
+  for (const std::size_t count : {std::size_t{2}, std::size_t{101}, std::size_t{100001}}) {
+    const std::vector<double> level(count, 3.0);
+    const std::vector<double> in = in_front_of({200, 2}, level, 0.002);
+    REQUIRE(in.size() == count);
+    CHECK_CLOSE(in.front(), 3, 1e-9, 0);
+    CHECK_CLOSE(in.back(), 3, 1e-9, 0);
+  }
   CHECK(behind({}, std::vector<double>{1, 5, 2}, 0.01) == std::vector<double>{1, 5, 2});
 }
