@@ -312,7 +312,7 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
                                       LeastSquaresReport solved, NoisyFit& fit,
                                       InPlantReport& report) {
   constexpr int kTurns = 15;
-  constexpr double kNear = 3, kStays = 0.2, kShort = 0.1;  // of a standard deviation
+  constexpr double kNear = 3, kStays = 0.2, kShort = 0.02;  // of a standard deviation
   fit.cases = cases;
   fit.found.sources = first_noise(setup, cases, residuals, scale);
   int iterations = 0;
