@@ -75,9 +75,9 @@ std::string force_name(const std::string& strut, std::size_t dampers);
 /// Observes the recordings with these dampers in the plant, all of whose numbers are known: one in
 /// each strut, in their order. What is not stated of the uncertainties (the models' errors,
 /// sensors' noise, the road's class) is that under which the recordings are most likely; every
-/// sensor's stated delay is taken off. Throws Error before long work where a number of the plant is
-/// unknown, where a recording is too short, where a damper's model cannot be followed. What a
-/// damper has at rest is taken off, since the springs bear it.
+/// sensor's stated filter and delay are taken off. Throws Error before long work where a number of
+/// the plant is unknown, where a recording is too short, where a damper's model cannot be followed.
+/// What a damper has at rest is taken off, since the springs bear it.
 ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
                       const std::vector<PlantRecording>& recordings, const ObserveOptions& options);
 /// The same with this damper in each strut.
@@ -87,8 +87,8 @@ ObserveReport observe(std::shared_ptr<const DamperModel> damper, const Domain& d
 
 /// The filter alone, with this damper in each strut and all uncertainties stated: what an ECU runs
 /// at this sample time, switched on while the plant stands. (From anywhere, single precision would
-/// lose its covariance.) Sensors without a noise, or late by more than a tenth of a sample, are
-/// refused.
+/// lose its covariance.) Sensors without a noise, or late by more than a tenth of a sample as those
+/// behind a filter are, are refused.
 PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Domain& domain,
                             InPlantSetup setup, double sample_time, const ObserveOptions& options);
 
@@ -96,8 +96,8 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
 void require_plant_drive(const InPlantSetup& setup, const ModelFile& file,
                          const std::string& model);
 
-/// A recording as a filter takes it, late sensors brought forward. Throws Error where it is too
-/// short.
+/// A recording as a filter takes it, late sensors brought forward, from behind their own filters.
+/// Throws Error where it is too short.
 ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording& recording);
 
 /// The damper in equilibrium at rest, where the springs bear what it has there.

@@ -46,10 +46,10 @@ struct VirtualRide {
 };
 
 /// Runs this plant, all of whose numbers are known, with this damper, in equilibrium at rest: the
-/// classical Runge-Kutta method, 40 steps per sample. Sensors are late by their delays, have the
-/// noise that is stated, and in each ride a zero that is off at random. The same seed gives the
-/// same rides. Throws Error where a number is unknown, where the damper's states have no rates,
-/// where a ride would have more than 1e7 samples, and where it diverges.
+/// classical Runge-Kutta method, 40 steps per sample. Sensors are behind their filters and late by
+/// their delays, have the noise that is stated, and in each ride a zero that is off at random. The
+/// same seed gives the same rides. Throws Error where a number is unknown, where the damper's
+/// states have no rates, where a ride would have more than 1e7 samples, and where it diverges.
 std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup, const DamperModel& damper,
                                           const VirtualCampaignOptions& options);
 /// The same with a damper of its own in each strut, in their order.
