@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 
 #include <fmt/core.h>
@@ -13,6 +12,7 @@
 #include "dashpot/dataset.h"
 #include "dashpot/identify/fit/family_build.h"
 #include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/machine/found_noise.h"
 #include "dashpot/model_file.h"
 #include "dashpot/physics/damper_description.h"
 #include "document_text.h"
@@ -141,8 +141,8 @@ std::string table_of(const FamilyModel& model, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-/// How the build differs from its drawing, and whether it can be one of it. by: what told it; such
-/// forces: of what.
+/// How the build differs from its drawing, and whether it can be one of it. by: the recordings that
+/// told it; is_drive: of a plant, not of a bench.
 void print_build(const BuildReport& report, const std::string& by, bool is_drive,
                  Console& console) {
   Table table({"this build", ">from its drawing", ">builds differ by", ">known to"});
@@ -153,11 +153,15 @@ void print_build(const BuildReport& report, const std::string& by, bool is_drive
     };
     table.row({one.name, text(one.value), text(one.spread), text(one.left)});
   }
+
+  // How much of the force it leaves.
   console.print('\n' + table.text(static_cast<std::size_t>(console.width())) +
                 fmt::format("{} the family leaves {} % of the force's power, this build {} %.\n",
                             is_drive ? "As the sensors tell the force," : "On its recording",
                             format_number(report.esr_before, 3),
                             format_number(report.esr_after, 3)));
+
+  // What speaks against it.
   const std::string of_another = std::string("a ") + (is_drive ? "drive with" : "recording of") +
                                  " another damper, or a drawing that is not this damper's";
   if (!report.is_likely())
@@ -184,14 +188,6 @@ BuildReport measured(const FamilyModel& member, const ModelFile& family,
   BuildReport report = measure_build(member, data.records, data.drive_unit);
   print_build(report, names, false, console);
   return report;
-}
-
-/// What was found of the noise of sensors that state none, for observers.
-std::vector<FoundNoise> noise_of(const InPlantReport& report) {
-  std::vector<FoundNoise> found;
-  std::ranges::copy_if(report.noise, std::back_inserter(found),
-                       [](const FoundNoise& one) { return one.deviation > 0; });
-  return found;
 }
 
 int run_member(const MemberSettings& settings, Console& console) {
@@ -229,7 +225,7 @@ int run_member(const MemberSettings& settings, Console& console) {
       report = std::move(found.build.build);
       print_build(report, join(settings.recordings, ", "), true, console);
       json.add("in_plant", document_json(found.document));
-      file.noise_found = noise_of(found.build.found);
+      file.noise_found = told_noise(found.build.found);
     }
     member = report.model;
     Value build = Value::object();

@@ -129,6 +129,8 @@ LeastSquaresReport solve_until_near(const LeastSquaresProblem& problem, std::vec
   solver.threads = options.threads;
   solver.line_search = LineSearch::ByResiduals;
   solver.on_iteration = [&](int, double, std::span<const double>) { options.monitor.check(); };
+
+  // Two iterations after the other, and a look at how far they went.
   LeastSquaresReport solved;
   int iterations = 0;
   for (int piece = 0; piece < kPieces; ++piece) {

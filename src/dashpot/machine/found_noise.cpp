@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "dashpot/base/text.h"
@@ -120,6 +121,13 @@ std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantRepo
         noise > 0 && input.noise == 0 && !input.road)
       found.push_back({input.channel, unit_of(input.place.kind), noise, 0});
   return found;
+}
+
+std::vector<FoundNoise> told_noise(const InPlantReport& report) {
+  std::vector<FoundNoise> told;
+  std::ranges::copy_if(report.noise, std::back_inserter(told),
+                       [](const FoundNoise& one) { return one.deviation > 0; });
+  return told;
 }
 
 std::vector<std::string> noise_alone(const InPlantSetup& setup,

@@ -18,6 +18,9 @@ namespace dashpot {
 /// deviation where neither tells it. Nothing of a report without a model.
 std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantReport& report);
 
+/// That of a report which is told, for the files of observers.
+std::vector<FoundNoise> told_noise(const InPlantReport& report);
+
 /// The sensors that show hardly more than white noise in these recordings.
 std::vector<std::string> noise_alone(const InPlantSetup& setup,
                                      const std::vector<PlantRecording>& recordings);

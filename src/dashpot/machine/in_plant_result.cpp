@@ -1,10 +1,9 @@
 #include "dashpot/machine/in_plant_result.h"
 
-#include <algorithm>
-#include <iterator>
 #include <numeric>
 
 #include "dashpot/base/any_number.h"
+#include "dashpot/machine/found_noise.h"
 
 namespace dashpot {
 namespace {
@@ -111,8 +110,7 @@ ModelFile found_damper(const InPlantReport& report, const InPlantSetup& setup, d
   file.sample_time = sample_time;
   file.domain = report.domain;
   file.dissipation = dissipation(*file.model, file.domain);
-  std::ranges::copy_if(report.noise, std::back_inserter(file.noise_found),
-                       [](const FoundNoise& one) { return one.deviation > 0; });
+  file.noise_found = told_noise(report);
   return file;
 }
 

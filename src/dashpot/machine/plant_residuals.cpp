@@ -488,6 +488,8 @@ bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t 
   for (std::size_t k = 0; k < columns.size(); ++k)
     if (!columns[k].empty() && difference_step(x, plant_unknowns() + group.first + k, false) == 0)
       return false;
+
+  // The parameter a little more.
   const double step = law_->step(own, group) * (other_way ? -1 : 1);
   const std::shared_ptr<const DamperModel> damper =
       in_recording(law_->moved(own, group, step), one);
@@ -498,6 +500,8 @@ bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t 
   if (!move(x, equations(x), *damper, one, place, end_of(one, samples), sensors_, shown, beside) ||
       !compare(x, place, samples, std::move(shown), moved))
     return false;
+
+  // Each of its unknowns moves it by so much.
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const double slope = law_->slope(own, group, k, one.driving.current.front()) / step;
     for (std::size_t i = 0; i < columns[k].size(); ++i) columns[k][i] = (moved[i] - r[i]) * slope;

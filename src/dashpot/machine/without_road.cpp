@@ -333,7 +333,7 @@ MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const Law
 
 /// The setup with the delays that it does not state among the unknowns; one stays, since on a road
 /// that nobody knows a delay of all shows nowhere. Nothing where it asks for some, or states all.
-std::optional<InPlantSetup> with_delays_unknown(InPlantSetup setup) {
+std::optional<InPlantSetup> with_other_delays_unknown(InPlantSetup setup) {
   bool stays = std::ranges::any_of(setup.sensors, [](const auto& one) { return one.delay != 0; });
   bool asks = false;
   for (PlantSensor& sensor : setup.sensors) {
@@ -348,10 +348,10 @@ std::optional<InPlantSetup> with_delays_unknown(InPlantSetup setup) {
 
 /// By how much -log L would fall for each sample, to first order, if the delays were unknown too
 /// that the plant does not state.
-double gain_by_delays(const Task& task, const std::vector<RiddenRecording>& rides,
-                      const LawUnknowns& unknowns, double force, const Point& point) {
+double gain_by_other_delays(const Task& task, const std::vector<RiddenRecording>& rides,
+                            const LawUnknowns& unknowns, double force, const Point& point) {
   constexpr double kTrace = 1e-9;  // keeps what the law and the noise trade solvable
-  const std::optional<InPlantSetup> beside = with_delays_unknown(task.setup);
+  const std::optional<InPlantSetup> beside = with_other_delays_unknown(task.setup);
   if (!beside) return 0;
   const SpectralLikelihood late(*beside, rides, unknowns, point.plant, point.noise, force);
   const std::vector<double> start = late.start(point.plant, point.law);
@@ -415,7 +415,7 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
     add_parameters(likelihood, found.x, spread, report);
     mend_intervals(likelihood, report);
     add_warnings(likelihood, spread, report);
-    point.gain_by_delays = gain_by_delays(task, rides, unknowns, force, point);
+    point.gain_by_delays = gain_by_other_delays(task, rides, unknowns, force, point);
     SpectralLikelihood more(task.setup, rides, unknowns, point.plant, point.noise, force, true);
     ask_for_more(more, more.start(point.plant, point.law), options, report);
   }
@@ -500,18 +500,22 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
 /// Once more with the delays that the plant does not state among the unknowns. Taken where the
 /// law's own errors are then clearly smaller and some delay is more than what a law of another
 /// structure than the damper's is late by.
-InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
-                                const std::vector<PlantRecording>& recordings,
-                                const InPlantOptions& options, InPlantReport as_stated) {
-  constexpr double kClearly = 0.7;  // half the power
+InPlantReport fit_beside_other_delays(const Law& law, const InPlantSetup& setup,
+                                      const std::vector<PlantRecording>& recordings,
+                                      const InPlantOptions& options, InPlantReport as_stated) {
+  constexpr double kClearly = 0.7;  // of the force; half the power
   constexpr double kLate = 0.001;   // s
-  const InPlantSetup beside = *with_delays_unknown(setup);
+  const InPlantSetup beside = *with_other_delays_unknown(setup);
   bool is_late = false;
   InPlantReport report = fit_without_road(law, beside, recordings, options, is_late);
   double most = 0;
   for (const FittedParameter& p : report.nuisances)
     if (p.name.starts_with("delay of ")) most = std::max(most, std::abs(p.value));
-  if (!(most > kLate) || !(report.force_error < kClearly * as_stated.force_error)) return as_stated;
+  const bool is_better =
+      report.model && most > kLate && report.force_error < kClearly * as_stated.force_error;
+  if (!is_better) return as_stated;
+
+  // What was found, and beside which sensor.
   const auto stays = std::ranges::find(beside.sensors, false, &PlantSensor::finds_delay);
   report.warnings.push_back(delays_found(setup, beside, report) + "; all may be later by what " +
                             stays->channel + " is late by, which shows nowhere");
@@ -529,7 +533,7 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   bool is_late = false;
   InPlantReport report = fit_without_road(law, setup, recordings, options, is_late);
   if (report.model && is_late)
-    report = fit_beside_delays(law, setup, recordings, options, std::move(report));
+    report = fit_beside_other_delays(law, setup, recordings, options, std::move(report));
   report.seconds = cpu_seconds() - started;
   return report;
 }

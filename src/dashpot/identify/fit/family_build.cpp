@@ -124,6 +124,8 @@ BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& 
       const double mean = mean_of(own);
       for (double& residual : own) residual -= mean;
     }
+
+    // The prior.
     for (std::size_t i = 0; i < kBuildNumbers; ++i) {
       double whitened = 0;
       for (std::size_t k = i; k < kBuildNumbers; ++k)

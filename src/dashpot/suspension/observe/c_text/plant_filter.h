@@ -433,6 +433,8 @@ static inline void filter_spread(const PlantFilter* f, const double* transition,
   double product[FILTER_MOST * FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
   int i, j, k;
+
+  /* The transition times the covariance. */
   for (i = 0; i < moving; ++i) {
     for (j = 0; j < all; ++j) {
       double sum = 0;
@@ -442,6 +444,8 @@ static inline void filter_spread(const PlantFilter* f, const double* transition,
       product[(i * all) + j] = sum;
     }
   }
+
+  /* That times the transition from the other side, and what a sample adds. */
   for (i = 0; i < moving; ++i) {
     for (j = 0; j <= i; ++j) {
       double sum = f->process[(i * moving) + j];
@@ -506,6 +510,7 @@ static inline void filter_expect(const PlantFilter* f, const double* before, con
     force[d] = filter_gradient(f, d, &at, s, c, &gradient[d * FILTER_MOST]);
   }
   for (m = 0; m < f->sensors; ++m) {
+    /* By the dampers' forces. */
     const double* by_force = &f->sensor_force[m * f->dampers];
     double* row = &sample->rows[m * all];
     double beyond = measured[m] - (by_force[0] * force[0]);
@@ -518,6 +523,8 @@ static inline void filter_expect(const PlantFilter* f, const double* before, con
         row[k] += by_force[d] * gradient[(d * FILTER_MOST) + k];
       }
     }
+
+    /* By the sensor's own offset, the plant, the roads and the inputs. */
     beyond -= s[moving + m];
     for (k = 0; k < f->plant; ++k) {
       row[k] += f->sensor_plant[(m * f->plant) + k];
