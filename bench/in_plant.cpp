@@ -134,7 +134,8 @@ double distance_to_published(const PlantRecording& recording, const InPlantRepor
       for (auto& [name, value] : values) value = shown_as(report, name);
     response[is_fitted] = plant_response(
         make_plant(*setup.model, values),
-        is_fitted ? *report.model : static_cast<const DamperModel&>(published), setup, recording);
+        is_fitted ? *report.kinds.front().model : static_cast<const DamperModel&>(published), setup,
+        recording);
   }
   double sum = 0;
   const std::size_t first = (kPeriods - 1) * kPeriod;
@@ -207,9 +208,9 @@ double force_error(const InPlantReport& report, bool is_minute) {
     for (const FittedParameter& p : report.plant)
       words.values.push_back(p.name + "=" + format_exact(p.value));
     ModelFile file;
-    file.model = report.model->with_offset(0);
+    file.model = report.kinds.front().model->with_offset(0);
     file.drive_unit = DriveUnit::Volt;
-    file.domain = report.domain;
+    file.domain = report.kinds.front().domain;
     const Record modelled = ride(make_vehicle(words, file), 99);
     const auto& f = truth.channel("suspension_force").samples;
     const auto& g = modelled.channel("suspension_force").samples;

@@ -129,7 +129,7 @@ std::vector<double> force_errors(const InPlantSetup& truth, const DamperModel& d
 /// each level, %.
 std::vector<double> force_errors(const InPlantReport& report, const DamperModel& damper,
                                  const InPlantSetup& setup, const std::string& road_class) {
-  return force_errors(true_car(setup), damper, as_found(setup, report), *report.model,
+  return force_errors(true_car(setup), damper, as_found(setup, report), *report.kinds.front().model,
                       {.duration = 10,
                        .levels = kLevels,
                        .road = "iso8608,class=" + road_class + ",speed=20m/s",
@@ -194,7 +194,7 @@ void run_unmeasured(const std::string& truth, const std::string& road_class, dou
         identify_in_plant(find_law(law), setup, recordings, told_options());
     fmt::print("\n{} in a car with {}, class {}, {} s\n", law, truth, road_class, seconds);
     print_fit(report);
-    if (!report.model) continue;
+    if (!report.has_models()) continue;
     for (const std::string& other : std::vector<std::string>{"B", "C", "D"})
       fmt::print("force on another road, class {}, at 0, 1, 2 V: {} % of its span, rms\n", other,
                  shown_errors(report, *damper, setup, other));
@@ -213,7 +213,7 @@ void run_named(const std::string& truth, const std::string& road_class, double s
     InPlantOptions options;
     options.asymmetric = true;
     const InPlantReport report = identify_in_plant(find_law(law), setup, recordings, options);
-    if (!report.model) {
+    if (!report.has_models()) {
       fmt::print("{}, {}: {}\n", truth, law, report.message);
       continue;
     }
@@ -272,8 +272,9 @@ class Coverage {
 /// The law's numbers as a fit names them, of the true damper, where it is of the same law.
 std::vector<LawUnknowns::Coefficient> true_coefficients(const LawModel& damper,
                                                         const InPlantReport& report) {
-  if (report.model->law_inside()->law().name != damper.law().name) return {};
-  if (report.model->law_inside()->law().params.size() != damper.law().params.size()) return {};
+  if (report.kinds.front().model->law_inside()->law().name != damper.law().name) return {};
+  if (report.kinds.front().model->law_inside()->law().params.size() != damper.law().params.size())
+    return {};
   DataScale scale;
   scale.drive = {kLevels.front(), kLevels.back(), false, kLevels.size()};
   const LawUnknowns unknowns(damper.law(), scale, DriveUnit::Volt, OffsetMode::Record);
@@ -320,7 +321,7 @@ Covered cover(const CoverPlan& plan, const Counts& counts) {
     if (plan.repetitions == 1) print_fit(report);
 
     // The damper's.
-    if (!report.model) continue;
+    if (!report.has_models()) continue;
     for (const auto& c : true_coefficients(plan.damper, report))
       for (const FittedParameter& p : report.damper)
         if (p.name == c.name && counts(c)) covered.damper.add(p, c.value);
@@ -408,7 +409,7 @@ void run_sensors(const std::string& truth, const std::string& road_class, double
         row +=
             fmt::format("{} ({} ... {}){} | ", format_number(p.value, 4), format_number(p.low, 4),
                         format_number(p.high, 4), p.weak ? " weak" : "");
-      row += (report.model ? shown_errors(report, *damper, setup, road_class) : "") + " | ";
+      row += (report.has_models() ? shown_errors(report, *damper, setup, road_class) : "") + " | ";
       row += report.message + " |";
     } catch (const Error& error) {
       row += "refused: " + std::string(error.what()) + " |";
@@ -454,10 +455,10 @@ void run_building(double seconds, const std::vector<std::string>& laws) {
     for (const SensorFigures& s : report.sensors)
       fmt::print("{} {}: rms {:.4g}, error {:.4g} where it was fitted, {:.4g} held back {}\n",
                  s.recording, s.channel, s.rms, s.training, s.held_back, s.unit);
-    if (report.model)
-      fmt::print(
-          "force under another base motion at 0, 1, 2 V: {} % of its span, rms\n",
-          joined(force_errors(truth, *damper, as_found(setup, report), *report.model, options)));
+    if (report.has_models())
+      fmt::print("force under another base motion at 0, 1, 2 V: {} % of its span, rms\n",
+                 joined(force_errors(truth, *damper, as_found(setup, report),
+                                     *report.kinds.front().model, options)));
     std::fflush(stdout);
   }
 }

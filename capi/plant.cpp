@@ -47,6 +47,7 @@ std::vector<PlantRecording> recordings_of(const dashpot_rides* rides, const InPl
 void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWords& words,
                   const dashpot_monitor* monitor, dashpot_model** model, char** report) {
   const InPlantSetup setup = setup_of(plant);
+  require_alike(setup, "a call that hands over a model");
   const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
   const std::vector<std::string>& models = words.fit.words.models;
   require_model_for_plant(models.front(), setup, "options, models");
@@ -70,11 +71,11 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
   // The report is written before a failed fit is refused, since it says why.
   if (report) {
     Value told = to_json(found, models.front());
-    if (found.model) told.add("found", to_json(as_found(setup, found)));
+    if (found.has_models()) told.add("found", to_json(as_found(setup, found)));
     *report = copy_text(format_json(presentable(told)));
   }
-  if (!found.model) throw NotUsable(models.front(), found.message);
-  ModelFile file = found_damper(found, setup, recordings.front().sample_time);
+  if (!found.has_models()) throw NotUsable(models.front(), found.message);
+  ModelFile file = found_damper(found.kinds.front(), found, setup, recordings.front().sample_time);
   file.provenance.created = date_now();
   file.provenance.command = words.fit.command;
   file.provenance.dataset = "identified in a plant: " + std::string(setup.model->name);

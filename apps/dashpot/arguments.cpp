@@ -57,6 +57,11 @@ std::string chosen_word(const std::string& word, const Option& option) {
   if (option.meaning)
     if (std::string meant = option.meaning(word); meant != word) return meant;
   if (option.takes == Takes::File && is_path(word)) return word;
+  if (option.takes_parts && word.find('=') != std::string::npos) {
+    for (const std::string& part : split(word, ','))
+      chosen_word(part.substr(part.find('=') + 1), option);
+    return word;
+  }
   if (option.choices.empty() || is_among(option.choices) || is_among(option.more_choices))
     return word;
   throw UsageError(option.is_positional() ? "" : option.long_name(),

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "console.h"
+#include "dampers_in_plant.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
@@ -110,7 +112,7 @@ std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings&
 
 /// The damper of each strut as the set has it, or worn: all by "force", one of several by
 /// "front_force".
-std::vector<std::shared_ptr<const DamperModel>> true_dampers(const ParameterSet& damper,
+std::vector<std::shared_ptr<const DamperModel>> true_dampers(const std::vector<ParameterSet>& sets,
                                                              double level,
                                                              const std::vector<std::string>& struts,
                                                              const PlantBenchSettings& settings) {
@@ -138,15 +140,31 @@ std::vector<std::shared_ptr<const DamperModel>> true_dampers(const ParameterSet&
     }
   }
 
-  const auto as_new = std::make_shared<LawModel>(damper.model);
   std::vector<std::shared_ptr<const DamperModel>> dampers;
-  for (const std::vector<WornDamper::Amount>& worn : amounts) {
-    if (worn.empty())
+  for (std::size_t d = 0; d < struts.size(); ++d) {
+    const auto as_new = std::make_shared<LawModel>(sets[d].model);
+    if (amounts[d].empty())
       dampers.push_back(as_new);
     else
-      dampers.push_back(std::make_shared<WornDamper>(mounted(as_new, level), worn));
+      dampers.push_back(std::make_shared<WornDamper>(mounted(as_new, level), amounts[d]));
   }
   return dampers;
+}
+
+/// The parameters of the damper in each strut.
+std::vector<ParameterSet> parameters_of(const CampaignSettings& campaign,
+                                        const InPlantSetup& setup) {
+  std::vector<ParameterSet> sets;
+  for (const std::string& name : of_each_damper(campaign.damper, setup, "--damper", "NAME")) {
+    sets.push_back(load_parameter_set(name));
+    const DriveUnit unit = sets.back().model.drive_unit();
+    if (setup.drive_unit != DriveUnit::None && setup.drive_unit != unit)
+      throw Error(
+          name,
+          "takes " + to_string(unit) + ", and the plant states " + to_string(setup.drive_unit),
+          "'voltage' or 'current' of the plant as the damper has it");
+  }
+  return sets;
 }
 
 /// Rides of an earlier campaign would be taken for some of this one.
@@ -240,12 +258,8 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   const InPlantSetup asked = read_in_plant_setup(settings.plant);
   const InPlantSetup setup =
       with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));
-  const ParameterSet damper = load_parameter_set(campaign.damper);
-  if (setup.drive_unit != DriveUnit::None && setup.drive_unit != damper.model.drive_unit())
-    throw Error(campaign.damper,
-                "takes " + to_string(damper.model.drive_unit()) + ", and the plant states " +
-                    to_string(setup.drive_unit),
-                "'voltage' or 'current' of the plant as the damper has it");
+  const std::vector<ParameterSet> sets = parameters_of(campaign, setup);
+  const ParameterSet& damper = sets.front();
 
   const std::string road = road_of(setup, settings);
   if (!road.empty() && settings.push != PlantBenchSettings{}.push)
@@ -262,7 +276,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
       .seed = campaign.bench.seed,
       .monitor = console.monitor()};
   const auto dampers =
-      true_dampers(damper, options.levels.front(), observer_names(setup).struts, settings);
+      true_dampers(sets, options.levels.front(), observer_names(setup).struts, settings);
   std::vector<const DamperModel*> models;
   for (const auto& one : dampers) models.push_back(one.get());
   const std::vector<VirtualRide> rides = virtual_campaign(setup, models, options);
@@ -281,8 +295,12 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   mark_without_recordings(plant.parent_path());
 
   // What was recorded, and the command that goes on from it.
-  console.talk(damper.damper + "; " + damper.source + '\n');
-  if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
+  std::set<std::string> told;
+  for (const ParameterSet& one : sets) {
+    if (!told.insert(one.name).second) continue;
+    console.talk(one.damper + "; " + one.source + '\n');
+    if (!one.verified) console.note("these parameters are an example: " + one.reason);
+  }
   if (const std::string note = levels_note(campaign, damper); !note.empty()) console.note(note);
   std::string levels;
   for (const double level : options.levels)

@@ -202,7 +202,10 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .help = "the damper under test, by the publication of its parameters",
        .value = "NAME",
        .choices = parameter_set_names(),
-       .noun = "damper"},
+       .takes_parts = true,
+       .noun = "damper",
+       .details = "; with --in one for all dampers of the plant, or one of each strut or kind of "
+                  "damper: front=NAME,rear=NAME"},
       {.names = "--motions",
        .target = &settings.motions,
        .help = "sines, amplitude in mm x frequency in Hz",

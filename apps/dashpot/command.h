@@ -45,6 +45,7 @@ struct Option {
   std::vector<std::string> choices =
       {};  ///< the words allowed, and paths where it takes files; empty: any
   std::vector<std::string> more_choices = {};  ///< allowed too, and not listed in the help
+  bool takes_parts = false;                    ///< PART=WORD,... with such words is allowed too
   std::string noun = "value";                  ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
   /// What a word means before it is looked for among the choices: the name of the law that stands

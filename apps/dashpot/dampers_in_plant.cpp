@@ -10,29 +10,44 @@
 
 namespace dashpot::cli {
 
-std::vector<std::string> model_files(const std::string& model,
-                                     const std::vector<std::string>& struts) {
-  if (model.find('=') == std::string::npos || std::filesystem::exists(model))
-    return std::vector<std::string>(struts.size(), model);
-  std::vector<std::string> files(struts.size());
-  for (const std::string& word : split(model, ',')) {
+std::vector<std::string> of_each_damper(const std::string& text, const InPlantSetup& setup,
+                                        const std::string& option, const std::string& value) {
+  const std::vector<std::string> struts = observer_names(setup).struts;
+  if (text.find('=') == std::string::npos) return std::vector<std::string>(struts.size(), text);
+  std::vector<std::string> values(struts.size());
+  for (const std::string& word : split(text, ',')) {
     const std::size_t equals = word.find('=');
-    const std::string name = word.substr(0, equals);
-    const auto strut = std::ranges::find(struts, name);
     if (equals == std::string::npos || equals + 1 == word.size())
-      throw UsageError("MODEL", "'" + word + "' is of no damper", "NAME=FILE of each damper");
-    if (strut == struts.end())
-      throw UsageError("MODEL", "the plant has no damper '" + name + "'", suggest(name, struts));
-    std::string& file = files[static_cast<std::size_t>(strut - struts.begin())];
-    if (!file.empty())
-      throw UsageError("MODEL", "the damper '" + name + "' has two models", "one of each damper");
-    file = word.substr(equals + 1);
+      throw UsageError(option, "'" + word + "' is of no damper",
+                       "NAME=" + value + " of each damper");
+    const std::string name = word.substr(0, equals);
+    const std::vector<std::size_t> places = dampers_named(setup, name);
+    if (places.empty())
+      throw UsageError(option, "the plant has no damper '" + name + "'",
+                       suggest(name, damper_names(setup)));
+    for (const std::size_t d : places) {
+      if (!values[d].empty())
+        throw UsageError(option, "the damper '" + struts[d] + "' has two models",
+                         "one of each damper");
+      values[d] = word.substr(equals + 1);
+    }
   }
   for (std::size_t d = 0; d < struts.size(); ++d)
-    if (files[d].empty())
-      throw UsageError("MODEL", "the damper '" + struts[d] + "' has no model",
-                       model + "," + struts[d] + "=FILE, or one FILE for all dampers");
-  return files;
+    if (values[d].empty())
+      throw UsageError(
+          option, "the damper '" + struts[d] + "' has no model",
+          text + "," + struts[d] + "=" + value + ", or one " + value + " for all dampers");
+  return values;
+}
+
+std::vector<std::string> model_files(const std::string& model, const InPlantSetup& setup) {
+  if (model.find('=') == std::string::npos && setup.kinds.size() > 1)
+    throw UsageError(
+        "MODEL",
+        "is one, and the plant has dampers of " + std::to_string(setup.kinds.size()) + " kinds",
+        join(setup.kinds.names, "=FILE,") + "=FILE");
+  if (std::filesystem::exists(model)) return std::vector<std::string>(setup.dampers(), model);
+  return of_each_damper(model, setup, "MODEL", "FILE");
 }
 
 ObservedDampers load_dampers(const std::vector<std::string>& files, const std::string& command,

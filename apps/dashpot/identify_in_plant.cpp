@@ -88,11 +88,12 @@ std::unique_ptr<PlantFitStore> plant_fit_store(const RankingSettings& settings, 
   return store;
 }
 
-/// The damper as a file that every other command reads.
-void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
+/// A damper as a file that every other command reads.
+void save_damper(const InPlantFit& fit, const FoundDamper& damper, const InPlantSetup& setup,
                  const std::vector<std::string>& paths, double sample_time, const fs::path& folder,
                  Console& console) {
-  ModelFile file = found_damper(fit.report, setup, sample_time);
+  ModelFile file = found_damper(damper, fit.report, setup, sample_time);
+  const std::string name = fit.model + (damper.name.empty() ? "" : "." + damper.name);
 
   // What it was fitted to, so that it is not judged by that unawares.
   file.provenance.created = date_now();
@@ -104,8 +105,8 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
   }
 
   if (!file.dissipation->dissipates())
-    console.warn(fit.model + ": " + activity(*file.dissipation, file.drive_unit));
-  save_model(file, folder / (fit.model + ".json"));
+    console.warn(name + ": " + activity(*file.dissipation, file.drive_unit));
+  save_model(file, folder / (name + ".json"));
 }
 
 }  // namespace
@@ -181,8 +182,9 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   const fs::path folder = settings.results.folder, models = folder / "models",
                  plants = folder / "plants";
   for (const InPlantFit& one : fits)
-    if (one.report.model) {
-      save_damper(one, setup, files, recordings.front().sample_time, models, console);
+    if (one.report.has_models()) {
+      for (const FoundDamper& damper : one.report.kinds)
+        save_damper(one, damper, setup, files, recordings.front().sample_time, models, console);
       write_file(plants / (one.model + ".json"), format_json(to_json(as_found(setup, one.report))));
     }
   std::string where = "\n";

@@ -220,7 +220,7 @@ DocumentTable models_by_force_error(const std::vector<InPlantFit>& fits) {
 
 std::string verdict_of(const InPlantFit& best, const InPlantSetup& setup) {
   const InPlantReport& report = best.report;
-  if (!report.model) return "Nothing could be fitted: " + report.message;
+  if (!report.has_models()) return "Nothing could be fitted: " + report.message;
   const std::string where = best.model + " in the " + std::string(setup.model->name) + ": ";
   if (!report.road_measured)
     return where + "it leaves " + format_number(report.force_error, 3) +
@@ -235,7 +235,7 @@ double worst_of(const InPlantFit& fit) {
   double share = 0;
   for (const SensorFigures& s : fit.report.sensors)
     share = std::max(share, 100 * (std::isnan(s.held_back) ? s.training : s.held_back) / s.rms);
-  return fit.report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
+  return fit.report.has_models() && std::isfinite(share) ? share : static_cast<double>(INFINITY);
 }
 
 Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const InPlantFit> doubted,
@@ -269,7 +269,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
                                               : models_by_force_error(fits)}});
 
   // The best of them in full.
-  if (best.report.model) {
+  if (best.report.has_models()) {
     DocumentSection section{.name = "fit", .title = best.model, .paragraphs = {}};
     section.tables = {sensor_table(best.report)};
     if (!best.report.plant.empty())

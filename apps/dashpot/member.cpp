@@ -221,7 +221,7 @@ int run_member(const MemberSettings& settings, Console& console) {
       MemberInPlant found = build_from_drive(
           *member, file, {settings.plant, settings.model, settings.recordings}, console);
       print_document(found.document, console);
-      if (!found.build.found.model) return kNotUsable;
+      if (!found.build.found.has_models()) return kNotUsable;
       report = std::move(found.build.build);
       print_build(report, join(settings.recordings, ", "), true, console);
       json.add("in_plant", document_json(found.document));

@@ -382,8 +382,8 @@ int run_observe(const ObserveSettings& settings, Console& console) {
     throw UsageError("--band", "is not between 0 and 100 %", "90");
   InPlantSetup setup = read_in_plant_setup(settings.plant);
   require_setup(setup);
-  const ObservedDampers dampers = load_dampers(
-      model_files(settings.model, observer_names(setup).struts), "observe", setup, console);
+  const ObservedDampers dampers =
+      load_dampers(model_files(settings.model, setup), "observe", setup, console);
   page_units(settings.units);
   std::vector<PlantRecording> recordings;
   for (const std::string& name : recording_files(settings.recordings))

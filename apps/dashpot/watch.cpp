@@ -210,7 +210,7 @@ int run_watch(const WatchSettings& settings, Console& console) {
   const PrintUnits units = page_units(settings.units);
   InPlantSetup setup = read_in_plant_setup(settings.plant);
   require_setup(setup);
-  const std::vector<std::string> models = model_files(settings.model, observer_names(setup).struts);
+  const std::vector<std::string> models = model_files(settings.model, setup);
   ObservedDampers dampers = load_dampers(models, "watch", setup, console);
   DayState state(settings, basis_of(settings, models, setup), console);
   const std::vector<NewDay> todo = new_days(settings, state);

@@ -88,7 +88,7 @@ TEST_CASE("in plant: a drive at one current makes a build's other currents its o
                                                       .samples = ride.recorded.time.size(),
                                                       .channels = ride.recorded.channels}},
                                                     {.grade = ""});
-  REQUIRE(told.found.model);
+  REQUIRE(told.found.has_models());
   REQUIRE(told.found.plant.size() == 1);
   CHECK_CLOSE(told.found.plant[0].value, 80, 0.02, 0);
   CHECK(told.found.sensors[0].held_back < told.mean.sensors[0].held_back);
@@ -98,7 +98,7 @@ TEST_CASE("in plant: a drive at one current makes a build's other currents its o
     const VirtualRide other = pushed(weak, current, 99);
     CAPTURE(current);
     CAPTURE(force_error(*mean, other, current));
-    CHECK(force_error(*told.found.model, other, current) <
+    CHECK(force_error(*told.found.kinds.front().model, other, current) <
           0.85 * force_error(*mean, other, current));
   }
 }

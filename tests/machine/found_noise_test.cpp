@@ -26,7 +26,7 @@ const std::string kQuietCar =
 /// `level` a spectrum that falls all along, in which no noise can be seen.
 InPlantReport left_over(double noise) {
   InPlantReport report;
-  report.model = std::make_shared<LawModel>(load_parameters("spencer1997"));
+  report.kinds = {{"", {0}, std::make_shared<LawModel>(load_parameters("spencer1997")), {}}};
   InPlantTrace trace{.recording = "ride", .sample_time = 0.002, .training = 4000};
   trace.measured.assign(2, {});
   trace.modelled.assign(2, std::vector<double>(4000));

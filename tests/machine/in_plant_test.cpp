@@ -176,7 +176,7 @@ TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by
       delayed(recording.channels[2].samples, recording.sample_time, 0.003);
   const InPlantReport report =
       identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 3, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.nuisances, "delay of a").value, 0.003, 0.05, 0);
   CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.02, 0);
   CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.2, 0);
@@ -190,7 +190,7 @@ TEST_CASE("in plant: a sensor that is the other way round is told" * doctest::te
   for (double& value : recording.channels[2].samples) value = -value;
   const InPlantReport report =
       identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 3, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
     return contains(warning, "a: shows -") && contains(warning, "the other way round?");
   }));
@@ -206,7 +206,7 @@ TEST_CASE("in plant: what comes late is found out unasked, and the mass with it"
   setup.unknown[0].about = 1.5;
   const InPlantReport report =
       identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(report.plant[0].value, 2, 0.01, 0);
   CHECK_CLOSE(named(report.nuisances, "delay of x").value, 0.02, 0.02, 0);
   CHECK(contains(report.warnings.back(), "not at one time: delay of x 20"));
@@ -239,7 +239,7 @@ TEST_CASE("in plant: a sensor behind a filter that the plant states" *
   setup.sensors[0].filter = {30, 2};
   const InPlantReport report =
       identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 6, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.01, 0);
   CHECK_CLOSE(named(report.damper, "c0").value, 12, 0.1, 0);
 }
@@ -251,7 +251,7 @@ TEST_CASE("in plant: where nothing fits, no number seems certain") {
   setup.unknown[0].about = 2;
   const InPlantReport report =
       identify_in_plant(find_law("tanh_guo"), setup, {recording}, {.starts = 2, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
     return contains(warning, "neither numbers nor intervals can be relied on");
   }));
@@ -344,7 +344,7 @@ TEST_CASE("in plant: a building's damper from its floors' accelerations on shaki
                    {.channel = "floor_2_acceleration", .place = {PlantQuantity::Acceleration, 1}}};
   const InPlantReport report =
       identify_in_plant(find_law("viscous_dahl"), setup, {recording}, {.starts = 6, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.plant, "stiffness").value, 6.84e5, 0.03, 0);
   for (const SensorFigures& sensor : report.sensors) {
     CAPTURE(sensor.held_back);
@@ -390,12 +390,12 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
   setup.skip = 0.2;
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 4, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.plant, "sprung_mass").value, 387, 0.03, 0);
 
   // The damper's force on another road.
   ModelFile file;
-  file.model = report.model->with_offset(0);
+  file.model = report.kinds.front().model->with_offset(0);
   file.drive_unit = DriveUnit::Volt;
   file.domain = report.domain;
   for (const double voltage : {0.0, 2.0}) {
@@ -431,7 +431,7 @@ TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
                      {.law = {}, .parameter = "beta", .bounds = ParameterBounds{-1e13, 1e13}},
                      {.law = {}, .parameter = "n", .free = true}};
   const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, {recording}, options);
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.001, 0);
   CHECK_CLOSE(named(report.plant, "damping").value, 10, 0.01, 0);
   CHECK_CLOSE(named(report.plant, "stiffness").value, 5e4, 0.001, 0);
@@ -443,6 +443,6 @@ TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
   // Without the law's name: the rms over the noise grows by less than 1e-6 m does.
   options.choices = {{.law = {}, .parameter = "c", .fixed = 0.0}};
   const InPlantReport black = identify_in_plant(duhem_law(), setup, {recording}, options);
-  REQUIRE(black.model);
+  REQUIRE(black.has_models());
   CHECK(black.sensors[0].held_back < 7.5e-6);
 }

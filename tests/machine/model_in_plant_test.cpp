@@ -70,7 +70,7 @@ TEST_CASE(
   CHECK(fits[0].model == kLawBeforeModels);
   CHECK_FALSE(fits[0].was_asked_for);
   const InPlantReport &law = fits[0].report, &network = fits[1].report;
-  REQUIRE(network.model);
+  REQUIRE(network.has_models());
   CHECK(network.along == kLawBeforeModels);
 
   // On the time that no fit has seen, at either sensor; the law has no memory.
@@ -95,7 +95,7 @@ TEST_CASE("in plant: a hybrid and a bank beside a law, along which they learn" *
   for (const std::size_t k : {1u, 2u}) {
     CAPTURE(fits[k].model);
     CAPTURE(fits[k].report.message);
-    REQUIRE(fits[k].report.model);
+    REQUIRE(fits[k].report.has_models());
     CHECK(fits[k].report.along == "viscous_dahl");
     CHECK(fits[k].report.sensors[0].held_back < 0.3 * fits[k].report.sensors[0].rms);
 

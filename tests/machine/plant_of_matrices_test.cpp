@@ -154,7 +154,7 @@ TEST_CASE("a plant of matrices: a quarter car written so is the shipped one, to 
   const Law& law = find_law("tanh_kwok");
   const InPlantReport by_shipped = identify_in_plant(law, shipped, recordings, options),
                       by_own = identify_in_plant(law, own, recordings, options);
-  REQUIRE(by_own.model);
+  REQUIRE(by_own.has_models());
   for (std::size_t k = 0; k < 2; ++k) {
     CHECK_CLOSE(by_own.plant[k].value, by_shipped.plant[k].value, 1e-5, 0);
     CHECK_CLOSE(by_own.plant[k].high, by_shipped.plant[k].high, 1e-4, 0);
@@ -165,8 +165,8 @@ TEST_CASE("a plant of matrices: a quarter car written so is the shipped one, to 
   ObserveOptions watching;
   watching.force = {{28, 0.005}, {20, 0.3}};
   const auto force = [&](const InPlantSetup& setup, const InPlantReport& report) {
-    return observe(by_shipped.model, by_shipped.domain, as_found(setup, report), recordings,
-                   watching)
+    return observe(by_shipped.kinds.front().model, by_shipped.kinds.front().domain,
+                   as_found(setup, report), recordings, watching)
         .recordings[0]
         .quantities[0]
         .value;
@@ -197,7 +197,7 @@ TEST_CASE("a plant of matrices: a chain that no shipped plant is, its damper ove
       "chain.yaml");
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), setup, {pushed_chain()}, {.starts = 2, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   const double truths[] = {4, 20e3, 8e3, 12e3};
   for (std::size_t k = 0; k < 4; ++k) {
     CAPTURE(report.plant[k].name);

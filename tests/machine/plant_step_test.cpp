@@ -64,7 +64,8 @@ std::vector<std::vector<double>> ride(const DamperModel& damper, const PlantDriv
   std::vector<double> state(4 + damper.state_size());
   damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(4));
   std::vector<std::vector<double>> shown;
-  if (!plant.run(damper, driving, driving.samples, sensors, state, shown)) return {};
+  const DamperModel* const dampers[] = {&damper};
+  if (!plant.run(dampers, driving, driving.samples, sensors, state, shown)) return {};
   return shown;
 }
 
@@ -145,7 +146,8 @@ TEST_CASE(
   for (const double wheel : {0.5, -0.5}) {
     std::vector<double> state = {0.01, 0, 0, wheel, (wheel < 0 ? 50 : -50) * z_max};
     state.resize(4 + damper.state_size(), 1.0);
-    quarter_car().settle(damper, road(0.1, 0.002, 1, PlantMethod::StraightForce, 0), state);
+    const DamperModel* const dampers[] = {&damper};
+    quarter_car().settle(dampers, road(0.1, 0.002, 1, PlantMethod::StraightForce, 0), state);
     CHECK(std::abs(state[4]) < 1.001 * z_max);
     CHECK(std::abs(state[4]) > 0.9 * z_max);
     CHECK(state[0] == 0.01);
@@ -162,7 +164,8 @@ TEST_CASE("plant step: a run beside another one that hardly differs is what it i
     std::vector<double> state(4 + damper.state_size());
     damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(4));
     std::vector<std::vector<double>> shown;
-    REQUIRE(plant.run(damper, driving, driving.samples, sensors, state, shown, beside));
+    const DamperModel* const dampers[] = {&damper};
+    REQUIRE(plant.run(dampers, driving, driving.samples, sensors, state, shown, beside));
     return shown;
   };
   const LawModel damper = load_parameters("spencer1997");

@@ -50,7 +50,7 @@ double found_mass(const std::string& law, const PlantRecording& recording) {
   const std::vector<std::string> models{law};
   const InPlantReport report =
       identify_in_plant(models, moved_setup(), {recording}, {.grade = ""}).front().report;
-  return report.model ? report.plant.front().value : NAN;
+  return report.has_models() ? report.plant.front().value : NAN;
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST_CASE("a road that follows: a half car is found of whose rear wheel no road 
                              recordings, {.starts = 1, .iterations = 12, .grade = ""});
   };
   const InPlantReport report = found(kFollowed);
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(report.plant[0].value, 690, 0.04, 0);
   CHECK_CLOSE(report.plant[1].value, 2e5, 0.04, 0);
 

@@ -161,9 +161,10 @@ TEST_CASE("several dampers: half and full cars go as the suspension's own integr
       CAPTURE(steps);
       const PlantDriving driving =
           driving_under(plant, *road, kSeconds, static_cast<std::size_t>(steps), method, kVoltage);
-      std::vector<double> state = equations.at_rest(*damper, kVoltage);
+      const std::vector<const DamperModel*> dampers(plant.struts.size(), damper.get());
+      std::vector<double> state = equations.at_rest(dampers, kVoltage);
       std::vector<std::vector<double>> shown;
-      REQUIRE(equations.run(*damper, driving, driving.samples, places, state, shown));
+      REQUIRE(equations.run(dampers, driving, driving.samples, places, state, shown));
       for (std::size_t s = 0; s < places.size(); ++s) {
         CAPTURE(channels[s]);
         CHECK(share_between(shown[s], truth.channel(channels[s]).samples) < close);
@@ -180,9 +181,10 @@ TEST_CASE("several dampers: a run beside another one that hardly differs is what
   const PlantSensorPlace places[] = {{PlantQuantity::DamperForce, 0, 0},
                                      {PlantQuantity::DamperForce, 0, 1}};
   const auto run = [&](const DamperModel& damper, const RunBeside& beside) {
-    std::vector<double> state = equations.at_rest(damper, 1);
+    const DamperModel* const dampers[] = {&damper, &damper};
+    std::vector<double> state = equations.at_rest(dampers, 1);
     std::vector<std::vector<double>> shown;
-    REQUIRE(equations.run(damper, driving, driving.samples, places, state, shown, beside));
+    REQUIRE(equations.run(dampers, driving, driving.samples, places, state, shown, beside));
     return shown;
   };
   const LawModel damper = load_parameters("spencer1997");
@@ -209,7 +211,7 @@ TEST_CASE(
   setup.skip = 0.2;
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 3, .grade = ""});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(found_of(report.plant, "mass").value, 690, 0.02, 0);
   CHECK_CLOSE(found_of(report.plant, "inertia").value, 1222, 0.02, 0);
   CHECK_CLOSE(found_of(report.plant, "rear_tyre_stiffness").value, 2e5, 0.02, 0);
@@ -219,7 +221,7 @@ TEST_CASE(
 
   // The forces of both on another road.
   ModelFile file;
-  file.model = report.model->with_offset(0);
+  file.model = report.kinds.front().model->with_offset(0);
   file.drive_unit = DriveUnit::Volt;
   file.domain = report.domain;
   const GroundPointer other = wide_road(9);
@@ -239,7 +241,7 @@ TEST_CASE("several dampers: a law with a sharp knee, and the same bits on any nu
   const std::vector<PlantRecording> recordings = {half_car_ride(1, 2)};
   const InPlantReport one =
       identify_in_plant(find_law("viscous_dahl"), half_car(), recordings, options);
-  REQUIRE(one.model);
+  REQUIRE(one.has_models());
   CHECK(one.method == PlantMethod::StraightForce);
   CHECK(one.sensors[0].training < 0.3 * one.sensors[0].rms);
 
@@ -278,7 +280,7 @@ TEST_CASE("several dampers: a full car's masses from four struts" * doctest::tes
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), parse_in_plant_setup(text, "full.yaml"),
                         {virtual_recording(truth, sensors, 4)}, {.starts = 1});
-  REQUIRE(report.model);
+  REQUIRE(report.has_models());
   CHECK_CLOSE(found_of(report.plant, "mass").value, 1500, 0.02, 0);
   CHECK_CLOSE(found_of(report.plant, "roll_inertia").value, 460, 0.02, 0);
   CHECK(report.sensors[0].unit == "m/s^2");

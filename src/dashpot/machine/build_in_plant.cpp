@@ -90,8 +90,9 @@ BuildInPlant identify_build_in_plant(const FamilyModel& member, const InPlantSet
   BuildInPlant result;
   result.mean = identify(BuildLaw::Numbers{}, "the mean build");
   result.free = identify({}, "any build");
-  if (result.mean.model) result.mean.model = std::make_shared<FamilyModel>(member);
-  if (!result.free.model) return result;
+  if (result.mean.has_models())
+    result.mean.kinds.front().model = std::make_shared<FamilyModel>(member);
+  if (!result.free.has_models()) return result;
 
   // The build that the sensors tell, and the plant beside it.
   result.records = bench_records_along(result.free, setup, recordings, options);
@@ -100,8 +101,8 @@ BuildInPlant identify_build_in_plant(const FamilyModel& member, const InPlantSet
   const FamilyPhysics::Deviation& deviation = force.physics().deviation;
   result.found = identify(builds.numbers_of(deviation), "this build");
   result.found.noise = found_noise(setup, result.found);
-  if (result.found.model) result.found.model = result.build.model;
-  result.free.model = nullptr;  // it would outlive its law
+  if (result.found.has_models()) result.found.kinds.front().model = result.build.model;
+  result.free.kinds.clear();  // it would outlive its law
 
   // What the drive alone tells of it, and what it does not.
   result.found.damper = result.free.damper;

@@ -103,7 +103,7 @@ void take(IdentifiedNoise& identified, const std::string& channel, const std::st
 
 std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantReport& report) {
   std::vector<FoundNoise> found;
-  if (!report.model) return found;
+  if (!report.has_models()) return found;
   const Plant plant = make_plant(*setup.model, setup.known);
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const PlantSensor& sensor = setup.sensors[s];

@@ -45,12 +45,18 @@ LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations
   return solver;
 }
 
+/// The unknowns of the law in the dampers, in some size of force and motion.
+DamperUnknowns unknowns_of(const Law& law, const DataScale& scale, const InPlantSetup& setup,
+                           const InPlantOptions& options) {
+  return {{law, scale, setup.drive_unit, OffsetMode::Record, options.choices}, setup.kinds};
+}
+
 /// The law's unknowns in some size of its force, and where their fit has come to.
 struct Candidate {
-  LawUnknowns unknowns;
+  DamperUnknowns unknowns;
   std::vector<double> x;
   double cost = INFINITY;
-  std::optional<LawUnknowns::Group> held = {};  ///< of the law, while all else is fitted
+  std::optional<DamperUnknowns::Group> held = {};  ///< of the law, while all else is fitted
 };
 
 /// Forces are seen only through a plant of which something is expected.
@@ -85,10 +91,10 @@ std::optional<Candidate> bench_candidate(const Law& law, const InPlantSetup& set
 
   // Its numbers among all unknowns; plant and states as they start.
   const DataScale scale = data_scale(records, setup.drive_unit);
-  Candidate one{{law, scale, setup.drive_unit, OffsetMode::Record, options.choices}, {}};
+  Candidate one{unknowns_of(law, scale, setup, options), {}};
   const PlantResiduals residuals(setup, cases, one.unknowns, start.plant, start.scale);
   one.x = residuals.start(start.plant, start.states);
-  std::ranges::copy(one.unknowns.off_bounds(one.unknowns.of(*found->law_inside())),
+  std::ranges::copy(one.unknowns.off_bounds(one.unknowns.of({found->law_inside(), 1})),
                     one.x.begin() + static_cast<std::ptrdiff_t>(start.plant.size()));
   return one;
 }
@@ -116,7 +122,7 @@ std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
     scale.force *= force;
     scale.stroke *= stroke;
     scale.speed *= stroke;
-    all.push_back({{law, scale, setup.drive_unit, OffsetMode::Record, options.choices}, {}});
+    all.push_back({unknowns_of(law, scale, setup, options), {}});
     const PlantResiduals residuals(setup, cases, all.back().unknowns, start.plant, start.scale);
     all.back().x =
         residuals.start(start.plant, start.states, k >= std::size(kSizes) ? &random : nullptr);
@@ -147,7 +153,7 @@ void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all)
 
     // A delay waits for the fit of all.
     for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d) hold(d);
-    for (std::size_t u = 0; one.held && u < one.held->count; ++u)
+    for (std::size_t u = 0; one.held && u < one.held->count(); ++u)
       hold(in.start.plant.size() + one.held->first + u);
     LeastSquaresOptions solver = solver_options(in.options, kIterations, kTolerance);
     solver.first_radius = kFirstRadius;
@@ -169,7 +175,7 @@ void add_flattened(std::size_t horizon, const Trial& in, std::vector<Candidate>&
   // One parameter after the other.
   const std::size_t first = in.start.plant.size();
   std::vector<Candidate> others;
-  for (const LawUnknowns::Flattened& flat :
+  for (const DamperUnknowns::Flattened& flat :
        best.unknowns.flattened(std::span(best.x).subspan(first, best.unknowns.size()))) {
     others.push_back(best);
     others.back().held = flat.group;
@@ -236,10 +242,11 @@ std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantC
                          const PlantStart& start, const InPlantOptions& options) {
   constexpr double kStable = 2;  // fastest rate times step
   if (!law.rate) return cases.steps;
-  const LawUnknowns unknowns(law, start.scale, setup.drive_unit, OffsetMode::Record,
-                             options.choices);
+  const DamperUnknowns unknowns = unknowns_of(law, start.scale, setup, options);
   std::vector<double> parameters(law.params.size());
-  unknowns.model(unknowns.start()).parameters_at(start.scale.drive.high, parameters.data());
+  unknowns.models(unknowns.start())
+      .front()
+      .parameters_at(start.scale.drive.high, parameters.data());
   const double rate = law.rate(parameters.data(), start.scale.speed);
   std::size_t steps = cases.steps;
   const double sample_time = cases.all.front().driving.sample_time;
@@ -311,7 +318,7 @@ void require_profiles(const Law& law, const InPlantSetup& setup, const DataScale
   if (options.profiles.empty()) return;
   std::vector<std::string> known;
   for (const PlantUnknown& unknown : setup.unknown) known.push_back(unknown.name);
-  const LawUnknowns unknowns(law, scale, setup.drive_unit, OffsetMode::Record, options.choices);
+  const DamperUnknowns unknowns = unknowns_of(law, scale, setup, options);
   for (const auto& c : unknowns.coefficients(unknowns.start()))
     if (c.weights.size() == 1) known.push_back(c.name);
   for (const std::string& name : options.profiles)
@@ -351,11 +358,14 @@ LeastSquaresReport solve_weighed(const InPlantSetup& setup, PlantResiduals& resi
   return solved;
 }
 
-/// What the damper went through.
-Domain domain_of(const std::vector<InPlantTrace>& traces, const DriveRange& drive) {
+/// What the dampers of a kind went through.
+Domain domain_of(std::size_t kind, const InPlantSetup& setup,
+                 const std::vector<InPlantTrace>& traces, const DriveRange& drive) {
   Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
   for (const InPlantTrace& trace : traces)
-    for (const DamperTrace& damper : trace.dampers) {
+    for (std::size_t d = 0; d < trace.dampers.size(); ++d) {
+      if (setup.kinds.at(d) != kind) continue;
+      const DamperTrace& damper = trace.dampers[d];
       const auto [shortest, longest] = std::ranges::minmax(damper.deflection);
       const auto [slowest, quickest] = std::ranges::minmax(damper.velocity);
       domain.displacement_min = std::min(domain.displacement_min, shortest);
@@ -454,45 +464,39 @@ InPlantSetup with_delays_unknown(InPlantSetup setup) {
   return setup;
 }
 
-/// The share of the misfit at x that would go, to first order, if the delays were unknown too that
-/// the plant does not state; 0 where it asks for some, or states all. whole: the problem at its
-/// end.
-double gain_by_delays(const EndedFit& fit, const LeastSquaresProblem& whole, int threads) {
-  constexpr double kLater = 1e-4;  // s
-  InPlantSetup beside = with_delays_unknown(fit.setup);
-  const auto asks = [](const PlantSensor& sensor) { return sensor.finds_delay; };
-  if (std::ranges::any_of(fit.setup.sensors, asks) || std::ranges::none_of(beside.sensors, asks))
-    return 0;
+/// Residuals at the end of a fit, and what each unknown changes of them.
+struct Linear {
+  using Columns = std::vector<std::vector<double>>;
+  std::vector<double> residuals;
+  Columns columns;
+};
 
-  // Residuals and columns, those of the delays behind the others.
-  std::vector<double> x = fit.solved.x, r(whole.residuals);
-  const std::size_t others = x.size();
-  std::vector<std::vector<double>> columns(others, r);
-  std::vector<double*> places;
-  for (std::vector<double>& column : columns) places.push_back(column.data());
-  if (!whole.jacobian(x, r, places)) return 0;
-  for (std::size_t s = 0; s < beside.sensors.size(); ++s) {
-    if (!asks(beside.sensors[s])) continue;
-    InPlantSetup late = fit.setup;
-    for (std::size_t k = 0; k < late.sensors.size(); ++k)
-      late.sensors[k].noise = fit.residuals.scale_of(k);
-    late.sensors[s].delay = kLater;
-    const PlantResiduals residuals(late, fit.cases, fit.law, fit.plant_start, fit.scale);
-    columns.push_back(r);
-    if (!residuals.problem(0, threads).residual(x, columns.back())) return 0;
-    for (std::size_t i = 0; i < r.size(); ++i) columns.back()[i] -= r[i];
-  }
+/// With the columns of the unknowns from `first` on alone; nothing where the plant diverges.
+std::optional<Linear> linear_at(const LeastSquaresProblem& problem, const std::vector<double>& x,
+                                std::size_t first = 0) {
+  Linear at{.residuals = std::vector<double>(problem.residuals), .columns = {}};
+  at.columns.assign(x.size() - first, at.residuals);
+  std::vector<double*> places(first, nullptr);
+  for (std::vector<double>& column : at.columns) places.push_back(column.data());
+  if (!problem.jacobian(x, at.residuals, places)) return {};
+  return at;
+}
 
-  // What the best step would take off, with so many of the columns.
+/// The share of the misfit that would go, to first order, with `more` beside the unknowns of a fit.
+double gain_by(const Linear& fit, const Linear::Columns& more, int threads) {
   const auto along = [](const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
   };
-  const double misfit = along(r, r);
+  const auto column = [&](std::size_t k) -> const std::vector<double>& {
+    return k < fit.columns.size() ? fit.columns[k] : more[k - fit.columns.size()];
+  };
+
+  // What the best step would take off, with so many of the columns.
   const auto gain_of = [&](std::size_t n) {
     std::vector<double> matrix(n * n), slope(n), size(n);
     parallel_for(n, threads, [&](std::size_t i) {
-      slope[i] = along(columns[i], r);
-      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = along(columns[i], columns[k]);
+      slope[i] = along(column(i), fit.residuals);
+      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = along(column(i), column(k));
     });
     constexpr double kTrace = 1e-9;
     for (std::size_t i = 0; i < n; ++i) size[i] = std::sqrt(std::max(matrix[i * (n + 1)], 1e-300));
@@ -503,7 +507,77 @@ double gain_by_delays(const EndedFit& fit, const LeastSquaresProblem& whole, int
     }
     return along(slope, solve(matrix, slope));
   };
-  return (gain_of(columns.size()) - gain_of(others)) / misfit;
+  const std::size_t own = fit.columns.size();
+  return (gain_of(own + more.size()) - gain_of(own)) / along(fit.residuals, fit.residuals);
+}
+
+/// The setup of a fit that has ended with the weights of its sensors as their noise.
+InPlantSetup weighed(const EndedFit& fit) {
+  InPlantSetup setup = fit.setup;
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    setup.sensors[s].noise = fit.residuals.scale_of(s);
+  return setup;
+}
+
+/// What the delays would change that the plant does not state; nothing where it asks for some, or
+/// states all.
+Linear::Columns columns_of_delays(const EndedFit& fit, const std::vector<double>& residuals,
+                                  int threads) {
+  constexpr double kLater = 1e-4;  // s
+  const InPlantSetup beside = with_delays_unknown(fit.setup);
+  const auto asks = [](const PlantSensor& sensor) { return sensor.finds_delay; };
+  Linear::Columns columns;
+  if (std::ranges::any_of(fit.setup.sensors, asks)) return columns;
+  for (std::size_t s = 0; s < beside.sensors.size(); ++s) {
+    if (!asks(beside.sensors[s])) continue;
+    InPlantSetup late = weighed(fit);
+    late.sensors[s].delay = kLater;
+    const PlantResiduals shifted(late, fit.cases, fit.law, fit.plant_start, fit.scale);
+    columns.push_back(residuals);
+    if (!shifted.problem(0, threads).residual(fit.solved.x, columns.back())) return {};
+    for (std::size_t i = 0; i < residuals.size(); ++i) columns.back()[i] -= residuals[i];
+  }
+  return columns;
+}
+
+/// What the law's numbers would change if they were not the same in all dampers: those of all
+/// kinds but the first.
+Linear::Columns columns_of_kinds(const EndedFit& fit, const InPlantSetup& unlike, int threads) {
+  InPlantSetup setup = weighed(fit);
+  setup.kinds = unlike.kinds;
+  const DamperUnknowns law = fit.law.in_kinds(setup.kinds);
+  const PlantResiduals residuals(setup, fit.cases, law, fit.plant_start, fit.scale);
+
+  // Where all are what they are at the end of the fit.
+  const std::vector<double>& end = fit.solved.x;
+  const std::size_t first = fit.setup.unknown.size(), behind = first + fit.law.size();
+  std::vector<double> x(end.begin(), end.begin() + static_cast<std::ptrdiff_t>(first));
+  std::ranges::copy(law.alike({end.begin() + static_cast<std::ptrdiff_t>(first),
+                               end.begin() + static_cast<std::ptrdiff_t>(behind)}),
+                    std::back_inserter(x));
+  x.insert(x.end(), end.begin() + static_cast<std::ptrdiff_t>(behind), end.end());
+  std::optional<Linear> at = linear_at(residuals.problem(0, threads), x, behind);
+  if (!at) return {};
+  at->columns.resize(law.size() - fit.law.size());
+  return std::move(at->columns);
+}
+
+/// What speaks for a fit once more, with more unknowns.
+struct Doubts {
+  bool is_late = false;     ///< delays that the plant does not state may take off much
+  bool are_unlike = false;  ///< so may dampers that are not alike
+};
+
+/// whole: the problem at its end.
+Doubts doubts_of(const EndedFit& fit, const LeastSquaresProblem& whole, int threads) {
+  constexpr double kLate = 0.1, kUnlike = 0.05;
+  const std::optional<Linear> at = linear_at(whole, fit.solved.x);
+  if (!at) return {};
+  Doubts doubts;
+  doubts.is_late = gain_by(*at, columns_of_delays(fit, at->residuals, threads), threads) > kLate;
+  if (const std::optional<InPlantSetup> unlike = with_unlike_dampers(fit.setup))
+    doubts.are_unlike = gain_by(*at, columns_of_kinds(fit, *unlike, threads), threads) > kUnlike;
+  return doubts;
 }
 
 /// For where sensitivities are leaps, or the model so far off that what is left is no chance.
@@ -514,10 +588,9 @@ void drop_intervals(InPlantReport& report) {
 }
 
 /// The fit of what is measured, from the best of the starts. No model where the plant diverges.
-/// is_late: whether delays that the plant does not state may take off much of what is left.
 InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                               const std::vector<PlantRecording>& recordings,
-                              const InPlantOptions& options, bool& is_late) {
+                              const InPlantOptions& options, Doubts& doubts) {
   const double started = cpu_seconds();
   InPlantReport report;
 
@@ -532,7 +605,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   require_profiles(law, setup, start.scale, options);
 
   const Candidate best = start_in_motion(law, setup, recordings, cases, start, options);
-  const LawUnknowns& unknowns = best.unknowns;
+  const DamperUnknowns& unknowns = best.unknowns;
   const std::vector<double>& x = best.x;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
@@ -612,12 +685,10 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
     }
   }
 
-  constexpr double kWorthATry = 0.1;
-  is_late = gain_by_delays({setup, cases, unknowns, residuals, solved, start.plant, start.scale},
-                           whole, options.threads) > kWorthATry;
+  doubts = doubts_of({setup, cases, unknowns, residuals, solved, start.plant, start.scale}, whole,
+                     options.threads);
 
   // The whole of each recording in free run, with the end that was held back.
-  report.model = std::make_shared<LawModel>(residuals.damper(solved.x));
   residuals.describe(solved.x, report.sensors, report.traces, options.threads);
   for (const SensorFigures& figure : report.sensors)
     if (std::isinf(figure.held_back))
@@ -626,7 +697,11 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   std::ranges::move(sensor_doubts(setup, report.sensors, report.traces),
                     std::back_inserter(report.warnings));
   if (is_far_off(setup, report.traces)) drop_intervals(report);
-  report.domain = domain_of(report.traces, start.scale.drive);
+  std::vector<LawModel> laws = residuals.laws(solved.x);
+  for (std::size_t kind = 0; kind < laws.size(); ++kind)
+    report.kinds.push_back({setup.kinds.names[kind], setup.kinds.struts(kind, setup.dampers()),
+                            std::make_shared<LawModel>(std::move(laws[kind])),
+                            domain_of(kind, setup, report.traces, start.scale.drive)});
   report.seconds = cpu_seconds() - started;
   return report;
 }
@@ -634,13 +709,13 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
 /// The same, from more places where the plant diverges from all of the first ones.
 InPlantReport fit_somehow(const Law& law, const InPlantSetup& setup,
                           const std::vector<PlantRecording>& recordings,
-                          const InPlantOptions& options, bool& is_late) {
+                          const InPlantOptions& options, Doubts& doubts) {
   constexpr int kMoreStarts = 4;
-  InPlantReport report = fit_from_starts(law, setup, recordings, options, is_late);
-  if (report.model) return report;
+  InPlantReport report = fit_from_starts(law, setup, recordings, options, doubts);
+  if (report.has_models()) return report;
   InPlantOptions wider = options;
   wider.starts *= kMoreStarts;
-  return fit_from_starts(law, setup, recordings, wider, is_late);
+  return fit_from_starts(law, setup, recordings, wider, doubts);
 }
 
 /// Power of what is left at the sensors over that of what they showed, on the time that was fitted.
@@ -661,10 +736,28 @@ InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
   if (std::ranges::equal(beside.sensors, setup.sensors, {}, &PlantSensor::finds_delay,
                          &PlantSensor::finds_delay))
     return as_stated;
-  bool is_late = false;
-  InPlantReport report = fit_somehow(law, beside, recordings, options, is_late);
-  if (!report.model || !(share_left(report) < kClearly * share_left(as_stated))) return as_stated;
+  Doubts doubts;
+  InPlantReport report = fit_somehow(law, beside, recordings, options, doubts);
+  if (!report.has_models() || !(share_left(report) < kClearly * share_left(as_stated)))
+    return as_stated;
   report.warnings.push_back(delays_found(setup, beside, report));
+  return report;
+}
+
+/// Once more with dampers that are not alike, of which the plant does not say that they are. Taken
+/// where that leaves less; `setup` then says so.
+InPlantReport fit_unlike(const Law& law, InPlantSetup& setup,
+                         const std::vector<PlantRecording>& recordings,
+                         const InPlantOptions& options, InPlantReport as_stated, Doubts& doubts) {
+  constexpr double kLess = 0.97;
+  const InPlantSetup unlike = *with_unlike_dampers(setup);
+  Doubts then;
+  InPlantReport report = fit_somehow(law, unlike, recordings, options, then);
+  if (!report.has_models() || !(share_left(report) < kLess * share_left(as_stated)))
+    return as_stated;
+  report.warnings.push_back(unlike_found(unlike));
+  setup = unlike;
+  doubts = then;
   return report;
 }
 
@@ -685,11 +778,15 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   const std::vector<PlantRecording> recordings = with_followers(setup, as_recorded);
   if (unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
 
-  bool is_late = false;
-  InPlantReport report = fit_somehow(law, setup, recordings, options, is_late);
-  if (report.model &&
-      (is_late || seems_late(setup, report.traces) || is_far_off(setup, report.traces)))
-    report = fit_beside_delays(law, setup, recordings, options, std::move(report));
+  // As it is stated; where that leaves too much, with dampers that are not alike, beside delays.
+  Doubts doubts;
+  InPlantSetup as_taken = setup;
+  InPlantReport report = fit_somehow(law, setup, recordings, options, doubts);
+  if (report.has_models() && doubts.are_unlike)
+    report = fit_unlike(law, as_taken, recordings, options, std::move(report), doubts);
+  if (report.has_models() &&
+      (doubts.is_late || seems_late(setup, report.traces) || is_far_off(setup, report.traces)))
+    report = fit_beside_delays(law, as_taken, recordings, options, std::move(report));
   report.seconds = cpu_seconds() - started;
   return report;
 }
@@ -703,9 +800,10 @@ std::vector<double> plant_response(const Plant& plant, const DamperModel& damper
   const PlantCases cases = make_cases(setup, {recording}, steps);
   const PlantDriving& driving = cases.all.front().driving;
 
-  std::vector<double> state = equations.at_rest(damper, driving.current.front());
+  const std::vector<const DamperModel*> dampers(setup.dampers(), &damper);
+  std::vector<double> state = equations.at_rest(dampers, driving.current.front());
   std::vector<std::vector<double>> shown;
-  if (!equations.run(damper, driving, driving.samples, {&setup.sensors.front().place, 1}, state,
+  if (!equations.run(dampers, driving, driving.samples, {&setup.sensors.front().place, 1}, state,
                      shown))
     throw Error(recording.name, "the plant diverges with this damper");
   return shown.front();

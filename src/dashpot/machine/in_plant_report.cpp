@@ -153,6 +153,12 @@ std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
          "state it ('filter: 50 Hz' at the sensor)";
 }
 
+std::string unlike_found(const InPlantSetup& unlike) {
+  return "the dampers are not alike: those of " + join(unlike.kinds.names, ", ") +
+         " were found each with numbers of their own; 'dampers: alike' in the plant's file keeps "
+         "them together";
+}
+
 void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,
                    const InPlantOptions& options, std::vector<std::string>& warnings) {
   if (high > low) return;

@@ -55,10 +55,18 @@ struct PlantAdvice {
   std::vector<ParameterProfile> profiles;
 };
 
+/// A kind of damper, as it was found.
+struct FoundDamper {
+  std::string name;                          ///< of the kind; the only one has none
+  std::vector<std::size_t> struts;           ///< in which they stand
+  std::shared_ptr<const DamperModel> model;  ///< without an offset: in equilibrium at rest
+  Domain domain;                             ///< of these dampers' motion, as modelled
+};
+
 struct InPlantReport {
   FitReport::Status status = FitReport::Status::Failed;
   std::string message;
-  std::shared_ptr<const DamperModel> model;  ///< without an offset: in equilibrium at rest
+  std::vector<FoundDamper> kinds;  ///< of dampers; empty: nothing could be fitted
   std::vector<FittedParameter> plant, damper, nuisances;
   Knowable knowable;
   PlantAdvice advice;
@@ -74,13 +82,14 @@ struct InPlantReport {
   /// dashpot".
   std::string lacks;
   std::string along;  ///< the law along which a model learnt that is no law
-  Domain domain;      ///< of the damper's motion, as modelled
   int iterations = 0;
   double seconds = 0;     ///< CPU time
   std::size_t steps = 1;  ///< of the integrator per sample
   PlantMethod method = PlantMethod::RungeKutta;
   /// What half the step changes, rms, as a share of the rms error; the worst sensor.
   double step_error = 0;
+
+  bool has_models() const { return !kinds.empty(); }
 };
 
 /// Whether a number has an interval: where a model is held that is no law, it has none.
@@ -124,6 +133,9 @@ void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread, InP
 /// The delays that `beside` asks for and `stated` does not, as a warning.
 std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
                          const InPlantReport& report);
+
+/// The kinds of dampers that were taken for unlike, as a warning.
+std::string unlike_found(const InPlantSetup& unlike);
 
 /// A current that never changes tells nothing of what the law does at others: asking for that is an
 /// error; a law that could tell it is kept to this one, and a warning says so.

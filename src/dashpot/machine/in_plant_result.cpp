@@ -98,17 +98,18 @@ Value to_json(const InPlantReport& r, const std::string& law) {
                               {"advice", to_json(r.advice)},
                               {"warnings", Value::array(r.warnings)}});
   if (!r.along.empty()) told.add("along", r.along);
-  if (!r.road_measured && r.model) told.add("force_error", r.force_error);
+  if (!r.road_measured && r.has_models()) told.add("force_error", r.force_error);
   if (!r.lacks.empty()) told.add("lacks", r.lacks);
   return told;
 }
 
-ModelFile found_damper(const InPlantReport& report, const InPlantSetup& setup, double sample_time) {
+ModelFile found_damper(const FoundDamper& damper, const InPlantReport& report,
+                       const InPlantSetup& setup, double sample_time) {
   ModelFile file;
-  file.model = report.model->with_offset(0);
+  file.model = damper.model->with_offset(0);
   file.drive_unit = setup.drive_unit;
   file.sample_time = sample_time;
-  file.domain = report.domain;
+  file.domain = damper.domain;
   file.dissipation = dissipation(*file.model, file.domain);
   file.noise_found = told_noise(report);
   return file;

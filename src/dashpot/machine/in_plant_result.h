@@ -17,9 +17,9 @@ Value to_json(const PlantAdvice& advice);
 /// Figures, parameters with their 95 % intervals, what can be told, what would help.
 Value to_json(const InPlantReport& report, const std::string& law);
 
-/// The damper as a file, its dissipation looked at; provenance is the caller's. The report must
-/// hold a model.
-ModelFile found_damper(const InPlantReport& report, const InPlantSetup& setup, double sample_time);
+/// A damper of the report as a file, its dissipation looked at; provenance is the caller's.
+ModelFile found_damper(const FoundDamper& damper, const InPlantReport& report,
+                       const InPlantSetup& setup, double sample_time);
 
 /// Uncertainties and how the sensors fitted them, without the estimates over time.
 Value to_json(const ObserveReport& report, const InPlantSetup& setup);

@@ -24,6 +24,26 @@ std::vector<std::string> InPlantSetup::channels() const {
 
 std::size_t InPlantSetup::dampers() const { return make_plant(*model, known).struts.size(); }
 
+std::vector<std::size_t> DamperKinds::struts(std::size_t kind, std::size_t count) const {
+  std::vector<std::size_t> own;
+  for (std::size_t strut = 0; strut < count; ++strut)
+    if (at(strut) == kind) own.push_back(strut);
+  return own;
+}
+
+DamperKinds kinds_by_axle(const Plant& plant) {
+  DamperKinds kinds{.names = {}};
+  for (const Strut& strut : plant.struts) {
+    std::string axle = strut.name;
+    for (const std::string_view side : {"_left", "_right"})
+      if (axle.ends_with(side)) axle.resize(axle.size() - side.size());
+    const auto known = std::ranges::find(kinds.names, axle);
+    kinds.of.push_back(static_cast<std::size_t>(known - kinds.names.begin()));
+    if (known == kinds.names.end()) kinds.names.push_back(axle);
+  }
+  return kinds;
+}
+
 void require_units(const InPlantSetup& setup, const PlantRecording& recording) {
   const auto require = [&](const std::string& name, const std::string& wanted) {
     const Channel& channel = recording.channel(name);
@@ -57,6 +77,38 @@ void require_one_damper(const InPlantSetup& setup, const std::string& who) {
                 "has " + std::to_string(dampers) + " dampers, and " + who + " knows one",
                 "a plant with one strut, as quarter_car");
   require_no_follower(setup, who);
+}
+
+void require_alike(const InPlantSetup& setup, const std::string& who) {
+  if (setup.kinds.size() > 1)
+    throw Error("plant, dampers",
+                "are of " + std::to_string(setup.kinds.size()) + " kinds (" +
+                    join(setup.kinds.names, ", ") + "), and " + who + " knows one",
+                "leave 'dampers' out: all of them are then alike");
+}
+
+std::vector<std::size_t> dampers_named(const InPlantSetup& setup, const std::string& name) {
+  std::vector<std::size_t> places;
+  const Plant plant = make_plant(*setup.model, setup.known);
+  for (std::size_t d = 0; d < plant.struts.size(); ++d)
+    if (name == plant.struts[d].name || name == setup.kinds.names[setup.kinds.at(d)])
+      places.push_back(d);
+  return places;
+}
+
+std::vector<std::string> damper_names(const InPlantSetup& setup) {
+  std::vector<std::string> names;
+  for (const Strut& strut : make_plant(*setup.model, setup.known).struts)
+    names.push_back(strut.name);
+  for (const std::string& kind : setup.kinds.names)
+    if (!kind.empty() && std::ranges::find(names, kind) == names.end()) names.push_back(kind);
+  return names;
+}
+
+std::optional<InPlantSetup> with_unlike_dampers(InPlantSetup setup) {
+  if (setup.kinds.size() > 1 || setup.kinds.are_stated) return {};
+  setup.kinds = kinds_by_axle(make_plant(*setup.model, setup.known));
+  return setup.kinds.size() > 1 ? std::optional(std::move(setup)) : std::nullopt;
 }
 
 void require_no_follower(const InPlantSetup& setup, const std::string& who) {

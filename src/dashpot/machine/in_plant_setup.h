@@ -70,6 +70,26 @@ struct PlantSensor {
   IdentifiedNoise identified = {};
 };
 
+/// Which of the dampers in a plant are alike.
+struct DamperKinds {
+  std::vector<std::string> names = {""};  ///< the only kind has none
+  std::vector<std::size_t> of = {};       ///< per strut the place of its name; empty: the only one
+  bool are_stated = false;                ///< else they are alike until the sensors tell otherwise
+
+  std::size_t size() const { return names.size(); }
+  std::size_t at(std::size_t strut) const { return of.empty() ? 0 : of[strut]; }
+  /// Those of a kind, of so many.
+  std::vector<std::size_t> struts(std::size_t kind, std::size_t count) const;
+  /// What belongs to a kind: "front.alpha", of the only one "alpha".
+  std::string named(std::size_t kind, const std::string& name) const {
+    return names[kind].empty() ? name : names[kind] + "." + name;
+  }
+};
+
+/// Left and right alike, front and rear not: of a kind are the dampers whose struts differ in
+/// "_left" and "_right" alone.
+DamperKinds kinds_by_axle(const Plant& plant);
+
 struct PlantOfMatrices;
 struct PlantRecording;
 
@@ -82,6 +102,7 @@ struct InPlantSetup {
   std::vector<PlantUnknown> unknown;
   std::vector<PlantInputChannel> inputs;
   std::vector<PlantSensor> sensors;
+  DamperKinds kinds;  ///< of the dampers
   std::string drive;  ///< channel of the current or voltage; empty: `level` all along
   double level = 0;   ///< A or V
   DriveUnit drive_unit = DriveUnit::None;
@@ -91,7 +112,7 @@ struct InPlantSetup {
 
   /// Names of the channels that it speaks of.
   std::vector<std::string> channels() const;
-  /// How many dampers, all alike, stand in the plant.
+  /// How many dampers stand in the plant.
   std::size_t dampers() const;
 };
 
@@ -105,6 +126,15 @@ void require_units(const InPlantSetup& setup, const PlantRecording& recording);
 /// For what knows a single damper, and no road that follows another one. Throws Error "has 2
 /// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);
+/// For what knows dampers that are all alike. Throws Error "has dampers of 2 kinds, ...".
+void require_alike(const InPlantSetup& setup, const std::string& who);
+/// The dampers of this name: that in a strut, or those of a kind; none where there is none.
+std::vector<std::size_t> dampers_named(const InPlantSetup& setup, const std::string& name);
+/// Every name that a damper goes by: the struts, then the kinds where there are several.
+std::vector<std::string> damper_names(const InPlantSetup& setup);
+/// The setup with dampers that are of a kind on each axle (kinds_by_axle), where the plant does not
+/// say what they are. Nothing where it does, or has one.
+std::optional<InPlantSetup> with_unlike_dampers(InPlantSetup setup);
 /// For what knows no road that follows another one. Throws Error likewise.
 void require_no_follower(const InPlantSetup& setup, const std::string& who);
 /// Which input a road follows: the place in the setup of the one whose channel it names; behind

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -131,6 +132,71 @@ PlantSensorPlace sensor_place(const QuantityWord& word, const Plant& plant, cons
   else if (!at.empty())
     throw Error(where, std::string(word.word) + " is the damper's", "leave out 'at'");
   return place;
+}
+
+/// Whether a name may stand in that of a file and before a parameter's.
+bool is_plain(const std::string& name) {
+  return !name.empty() && std::ranges::all_of(name, [](unsigned char letter) {
+    return std::isalnum(letter) || letter == '_' || letter == '-';
+  });
+}
+
+/// The struts of one kind of damper: one, or a list.
+std::vector<std::size_t> struts_of_kind(const Value& value, const Plant& plant) {
+  std::vector<std::size_t> struts;
+  const auto add = [&](const Value& one) {
+    struts.push_back(place_named(plant.struts, "strut", one.as_string(), one.where()));
+  };
+  if (value.kind() == Value::Kind::String)
+    add(value);
+  else
+    for (const Value& one : value.items()) add(one);
+  return struts;
+}
+
+/// "alike", "apart", or kinds by name, each with its struts.
+DamperKinds read_kinds(const Value& value, const Plant& plant) {
+  DamperKinds kinds;
+  if (value.kind() == Value::Kind::String) {
+    const std::string word = value.as_string();
+    if (word != "alike" && word != "apart")
+      throw Error(value.where(), "are '" + word + "'",
+                  "alike, apart, or kinds by name, each with its struts: {front: [front_left, "
+                  "front_right], rear: [rear_left, rear_right]}");
+    kinds.are_stated = true;
+    if (word == "alike" || plant.struts.size() == 1) return kinds;
+    kinds.names.clear();
+    for (std::size_t strut = 0; strut < plant.struts.size(); ++strut) {
+      kinds.names.push_back(plant.struts[strut].name);
+      kinds.of.push_back(strut);
+    }
+    return kinds;
+  }
+
+  // Each strut once.
+  constexpr std::size_t kNone = SIZE_MAX;
+  kinds.are_stated = true;
+  kinds.names.clear();
+  kinds.of.assign(plant.struts.size(), kNone);
+  for (const auto& [name, struts] : value.members()) {
+    if (!is_plain(name))
+      throw Error(struts.where(), "'" + name + "' is no name for a kind of damper",
+                  "letters, digits, _ and -");
+    for (const std::size_t strut : struts_of_kind(struts, plant)) {
+      if (kinds.of[strut] != kNone)
+        throw Error(struts.where(),
+                    "the damper in " + plant.struts[strut].name + " is of two kinds",
+                    "one of them");
+      kinds.of[strut] = kinds.names.size();
+    }
+    kinds.names.push_back(name);
+  }
+  for (std::size_t strut = 0; strut < kinds.of.size(); ++strut)
+    if (kinds.of[strut] == kNone)
+      throw Error(value.where(), "the damper in " + plant.struts[strut].name + " is of no kind",
+                  "each strut under the name of a kind");
+  if (kinds.size() == 1) return {.are_stated = true};
+  return kinds;
 }
 
 /// What a plant cannot do without: a number that its table does not have at 0. Stops are none
@@ -418,6 +484,18 @@ void add_noise(double stated, const IdentifiedNoise& identified, const std::stri
   if (identified.zero > 0) sensor.add("zero_found", with_unit(identified.zero));
 }
 
+/// The kinds of dampers by name, each with its struts.
+Value kinds_json(const DamperKinds& kinds, const Plant& plant) {
+  Value all = Value::object();
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    Value struts = Value::array();
+    for (std::size_t strut = 0; strut < plant.struts.size(); ++strut)
+      if (kinds.at(strut) == kind) struts.push_back(plant.struts[strut].name);
+    all.add(kinds.names[kind], std::move(struts));
+  }
+  return all;
+}
+
 }  // namespace
 
 InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& source) {
@@ -431,6 +509,8 @@ InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& sour
     setup.inputs.push_back(read_input(input, plant));
   for (const Value& sensor : reader.required("sensors").items())
     setup.sensors.push_back(read_sensor(sensor, plant));
+
+  if (const Value* kinds = reader.optional("dampers")) setup.kinds = read_kinds(*kinds, plant);
 
   // What drives the damper: a channel or a level, of one unit.
   for (const auto& [key, unit] :
@@ -537,6 +617,10 @@ Value to_json(const InPlantSetup& setup) {
   file.add("parameters", std::move(parameters));
   file.add("inputs", std::move(inputs));
   file.add("sensors", std::move(sensors));
+  if (setup.kinds.size() > 1)
+    file.add("dampers", kinds_json(setup.kinds, plant));
+  else if (setup.kinds.are_stated)
+    file.add("dampers", "alike");
   if (setup.drive_unit != DriveUnit::None) {
     const std::string key = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current";
     file.add(key, setup.drive.empty() ? Value(setup.level) : Value(setup.drive));
@@ -550,6 +634,16 @@ Value to_json(const InPlantSetup& setup) {
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
   for (const FittedParameter& p : report.plant) setup.known.emplace_back(p.name, p.value);
   setup.unknown.clear();
+
+  // Dampers may have been found to be of several kinds.
+  if (report.kinds.size() > 1) {
+    setup.kinds = {
+        .names = {}, .of = std::vector<std::size_t>(setup.dampers()), .are_stated = true};
+    for (const FoundDamper& damper : report.kinds) {
+      for (const std::size_t strut : damper.struts) setup.kinds.of[strut] = setup.kinds.size();
+      setup.kinds.names.push_back(damper.name);
+    }
+  }
   const auto identified = [&](const std::string& channel, double stated) {
     const auto one = std::ranges::find(report.noise, channel, &FoundNoise::channel);
     if (stated > 0 || one == report.noise.end()) return IdentifiedNoise{};

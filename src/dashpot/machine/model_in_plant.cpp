@@ -176,7 +176,7 @@ Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round&
   now.left = left_over(report.sensors, setup);
   report.step_error = residuals.step_error(solved.x, recordings, options.threads);
   report.iterations = solved.iterations;
-  report.model = damper;
+  report.kinds = {{"", {0}, damper, before.report.kinds.front().domain}};
   now.known = residuals.setup_at(solved.x);
   now.states = residuals.states_of(solved.x);
   for (std::size_t k = 0; k < solved.x.size(); ++k) {
@@ -210,10 +210,10 @@ Round next_round(const Round& before, const std::string& model, const InPlantSet
 /// What speaks against the result, in words.
 void add_doubts(InPlantReport& report, bool is_behind) {
   constexpr double kStepShare = 0.2;
-  if (report.model && is_behind)
+  if (report.has_models() && is_behind)
     report.warnings.push_back("leaves more at the sensors than " + report.along +
                               ", along which it learnt: take that");
-  if (report.model && report.step_error > kStepShare)
+  if (report.has_models() && report.step_error > kStepShare)
     report.warnings.push_back("half the integrator's step changes a sensor by " +
                               format_number(100 * report.step_error, 2) + " % of its error");
   for (const FittedParameter& p : report.plant)
@@ -253,8 +253,8 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
                            static_cast<double>(round) / rounds);
     Round now = next_round(best, model, setup, recordings, scale, cases, options);
     iterations += now.report.iterations;
-    const bool is_better = now.report.model && now.left < kBetter * best.left;
-    if (round == 0 || (now.report.model && now.left < best.left)) best = std::move(now);
+    const bool is_better = now.report.has_models() && now.left < kBetter * best.left;
+    if (round == 0 || (now.report.has_models() && now.left < best.left)) best = std::move(now);
     if (!is_better) break;
   }
 
@@ -262,11 +262,10 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
   InPlantReport report = std::move(best.report);
   report.along = law.model;
   report.noise = law.report.noise;
-  if (report.model) report.status = FitReport::Status::Converged;
+  if (report.has_models()) report.status = FitReport::Status::Converged;
   report.iterations = iterations;
   report.steps = cases.steps;
   report.method = cases.method;
-  report.domain = law.report.domain;
   add_doubts(report, best.left > left_by_law);
   report.seconds = cpu_seconds() - started;
   return report;
@@ -346,14 +345,14 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   // The others along the best of them, by the time that was fitted.
   const InPlantSetup weighed = with_noise_found(setup, fits.front().report);
   const auto left_by = [&](const InPlantFit& fit) {
-    return fit.report.model ? left_over(fit.report.sensors, weighed)
-                            : static_cast<double>(INFINITY);
+    return fit.report.has_models() ? left_over(fit.report.sensors, weighed)
+                                   : static_cast<double>(INFINITY);
   };
   const InPlantFit law = *std::ranges::min_element(fits, {}, left_by);
   for (const std::string& model : models) {
     if (is_law(model)) continue;
     add_fit(model, law.model, [&](const InPlantOptions& own) {
-      if (law.report.model) return identify_along(model, law, setup, recordings, own);
+      if (law.report.has_models()) return identify_along(model, law, setup, recordings, own);
       InPlantReport none;
       none.message = "no law could be fitted before it: " + law.report.message;
       return none;

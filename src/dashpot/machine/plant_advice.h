@@ -7,7 +7,7 @@
 namespace dashpot {
 
 struct SensorGrade;
-class LawUnknowns;
+class DamperUnknowns;
 class PlantResiduals;
 struct Covariance;
 struct DataScale;
@@ -20,7 +20,7 @@ struct PlantCases;
 struct EndedFit {
   const InPlantSetup& setup;
   const PlantCases& cases;
-  const LawUnknowns& law;
+  const DamperUnknowns& law;
   const PlantResiduals& residuals;
   const LeastSquaresReport& solved;
   std::vector<double> plant_start;  ///< of the plant's unknowns

@@ -77,16 +77,21 @@ void pass(Bytes& bytes, Domain& d) {
         d.current_max);
 }
 
-/// All but the model, by name, so that a new member does not compile until it is dealt with here.
+/// All but the model, which is a text of its own.
+template <class Bytes>
+void pass(Bytes& bytes, FoundDamper& d) {
+  bytes(d.name, d.struts, d.domain);
+}
+
+/// By name, so that a new member does not compile until it is dealt with here.
 template <class Bytes>
 void pass(Bytes& bytes, InPlantReport& report) {
-  auto& [status, message, model, plant, damper, nuisances, knowable, advice, noise, sensors, traces,
-         warnings, road_measured, force_error, lacks, along, domain, iterations, seconds, steps,
-         method, step_error] = report;
-  (void)model;
-  bytes(status, message, plant, damper, nuisances, knowable, advice, noise, sensors, traces,
-        warnings, road_measured, force_error, lacks, along, domain, iterations, seconds, steps,
-        method, step_error);
+  auto& [status, message, kinds, plant, damper, nuisances, knowable, advice, noise, sensors, traces,
+         warnings, road_measured, force_error, lacks, along, iterations, seconds, steps, method,
+         step_error] = report;
+  bytes(status, message, kinds, plant, damper, nuisances, knowable, advice, noise, sensors, traces,
+        warnings, road_measured, force_error, lacks, along, iterations, seconds, steps, method,
+        step_error);
 }
 
 /// Takes members one behind the other.
@@ -152,12 +157,12 @@ class Filler {
   UnpackedBytes packed_;
 };
 
-/// The model as a file of its own holds it.
-std::string model_text(const PlantFitStore::Request& request, const InPlantReport& report) {
+/// A model as a file of its own holds it.
+std::string model_text(const PlantFitStore::Request& request, const FoundDamper& damper) {
   ModelFile file;
-  file.model = report.model->with_offset(0);
+  file.model = damper.model->with_offset(0);
   file.drive_unit = request.setup.drive_unit;
-  file.domain = report.domain;
+  file.domain = damper.domain;
   return format_model(file);
 }
 
@@ -216,10 +221,11 @@ std::optional<InPlantReport> PlantFitStore::load(const Request& request) const {
   // A damaged fit is as good as none: the caller makes it again and saves it in this one's place.
   try {
     InPlantReport report;
-    std::string model;
+    std::vector<std::string> models;
     Filler filler(*bytes);
-    filler(model, report);
-    report.model = parse_model(model, key).model;
+    filler(models, report);
+    for (std::size_t kind = 0; kind < report.kinds.size(); ++kind)
+      report.kinds[kind].model = parse_model(models.at(kind), key).model;
     return report;
   } catch (const Error&) {
     return std::nullopt;
@@ -227,11 +233,12 @@ std::optional<InPlantReport> PlantFitStore::load(const Request& request) const {
 }
 
 void PlantFitStore::save(const Request& request, const InPlantReport& report) {
-  if (!report.model) return;
-  std::string model = model_text(request, report);
+  if (!report.has_models()) return;
+  std::vector<std::string> models;
+  for (const FoundDamper& damper : report.kinds) models.push_back(model_text(request, damper));
   InPlantReport kept = report;
   Taker taker;
-  taker(model, kept);
+  taker(models, kept);
   store_.save(key_of(request), taker.bytes());
 }
 

@@ -115,7 +115,7 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 }
 
 PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
-                               const LawUnknowns& law, const std::vector<double>& plant,
+                               const DamperUnknowns& law, const std::vector<double>& plant,
                                const DataScale& scale)
     : PlantResiduals(setup, cases, &law, nullptr, plant, scale) {}
 
@@ -125,10 +125,10 @@ PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& case
     : PlantResiduals(setup, cases, nullptr, &held, plant, scale) {}
 
 PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
-                               const LawUnknowns* law, const DamperModel* held,
+                               const DamperUnknowns* law, const DamperModel* held,
                                const std::vector<double>& plant, const DataScale& scale)
     : setup_(&setup), cases_(&cases), law_(law), held_(held) {
-  if (law) law_states_ = law->model(law->start()).law().states;
+  if (law) law_states_ = law->models(law->start()).front().law().states;
   for (const PlantInputChannel& input : setup.inputs) inputs_.push_back(input.place);
   for (const PlantSensor& sensor : setup.sensors) sensors_.push_back(sensor.place);
   const auto add = [&](double size, double lower, double upper) {
@@ -224,14 +224,46 @@ bool PlantResiduals::is_of_law(std::size_t k) const {
   return k >= plant_unknowns() && k < first_state_;
 }
 
-LawModel PlantResiduals::damper(std::span<const double> x) const {
+std::vector<LawModel> PlantResiduals::laws(std::span<const double> x) const {
   assert(law_);
-  return law_->model(x.subspan(plant_unknowns(), law_->size()));
+  return law_->models(x.subspan(plant_unknowns(), law_->size()));
 }
 
-std::shared_ptr<const DamperModel> PlantResiduals::model(std::span<const double> x) const {
-  if (law_) return std::make_shared<LawModel>(damper(x));
-  return {std::shared_ptr<const DamperModel>(), held_};  // owned by the caller
+PlantResiduals::Dampers PlantResiduals::placed(
+    std::vector<std::shared_ptr<const DamperModel>> kinds) const {
+  Dampers dampers{std::move(kinds), {}};
+  for (std::size_t d = 0; d < setup_->dampers(); ++d)
+    dampers.in_struts.push_back(dampers.kinds[setup_->kinds.at(d)].get());
+  return dampers;
+}
+
+PlantResiduals::Dampers PlantResiduals::dampers(std::span<const double> x) const {
+  std::vector<std::shared_ptr<const DamperModel>> kinds;
+  if (law_)
+    for (LawModel& law : laws(x)) kinds.push_back(std::make_shared<LawModel>(std::move(law)));
+  else  // owned by the caller
+    kinds.assign(setup_->kinds.size(), {std::shared_ptr<const DamperModel>(), held_});
+  return placed(std::move(kinds));
+}
+
+PlantResiduals::Dampers PlantResiduals::laws_in(const PlantCase& one,
+                                                std::vector<LawModel> laws) const {
+  std::vector<std::shared_ptr<const DamperModel>> kinds;
+  for (LawModel& law : laws) {
+    if (!one.steady) {
+      kinds.push_back(std::make_shared<LawModel>(std::move(law)));
+      continue;
+    }
+    std::vector<double> parameters(law.law().params.size());
+    law.parameters_at(one.driving.current.front(), parameters.data());
+    kinds.push_back(std::make_shared<LawModel>(LawModel::constant(law.law(), parameters)));
+  }
+  return placed(std::move(kinds));
+}
+
+PlantResiduals::Dampers PlantResiduals::dampers_in(const PlantCase& one,
+                                                   std::span<const double> x) const {
+  return law_ ? laws_in(one, laws(x)) : dampers(x);
 }
 
 std::vector<LawUnknowns::Coefficient> PlantResiduals::law_coefficients(
@@ -293,14 +325,14 @@ DrivenPlant PlantResiduals::equations(std::span<const double> x) const {
 
 std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, std::size_t place,
                                                    const DrivenPlant& plant,
-                                                   const DamperModel& damper) const {
-  std::vector<double> state = plant.at_rest(damper, cases_->all[place].driving.current.front());
+                                                   PlacedDampers dampers) const {
+  std::vector<double> state = plant.at_rest(dampers, cases_->all[place].driving.current.front());
   const std::size_t of_plant = 2 * coordinates_, of_law = law_states_.size();
   for (std::size_t k = 0; k < states(); ++k) {
     // Behind the law's states each damper may have one of its coil, which begins at rest.
     const std::size_t before = k < of_plant ? 0 : (k - of_plant) / of_law;
     const std::size_t unknown = first_state_ + place * states() + k;
-    state[k + before * (damper.state_size() - of_law)] += size_[unknown] * x[unknown];
+    state[k + before * (dampers.front()->state_size() - of_law)] += size_[unknown] * x[unknown];
   }
   return state;
 }
@@ -316,18 +348,18 @@ std::vector<double> PlantResiduals::delays_at(std::span<const double> x) const {
 /// What the plant does, before the sensors' filters and delays; where there are any a little
 /// further, so that it is known between samples.
 bool PlantResiduals::move(std::span<const double> x, const DrivenPlant& plant,
-                          const DamperModel& damper, const PlantCase& one, std::size_t place,
+                          PlacedDampers dampers, const PlantCase& one, std::size_t place,
                           std::size_t samples, std::span<const PlantSensorPlace> sensors,
                           Shown& shown, const RunBeside& beside) const {
-  std::vector<double> state = state_at_first(x, place, plant, damper);
-  if (one.driving.method == PlantMethod::StraightForce) plant.settle(damper, one.driving, state);
+  std::vector<double> state = state_at_first(x, place, plant, dampers);
+  if (one.driving.method == PlantMethod::StraightForce) plant.settle(dampers, one.driving, state);
   const bool may_be_late =
       !delays_.empty() || std::ranges::any_of(setup_->sensors, [](const PlantSensor& sensor) {
         return sensor.delay != 0 || sensor.filter.cutoff > 0;
       });
   const std::size_t further =
       may_be_late ? std::min(samples + kSamplesAround, one.driving.samples) : samples;
-  return plant.run(damper, one.driving, further, sensors, state, shown, beside);
+  return plant.run(dampers, one.driving, further, sensors, state, shown, beside);
 }
 
 /// What comes out of a sensor's filter, and of a late one later.
@@ -342,11 +374,10 @@ void PlantResiduals::sense(std::span<const double> x, double sample_time, std::s
   for (std::vector<double>& one_shown : shown) one_shown.resize(samples);
 }
 
-bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
-                         const DamperModel& damper, const PlantCase& one, std::size_t place,
-                         std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                         Shown& shown) const {
-  if (!move(x, plant, damper, one, place, samples, sensors, shown)) return false;
+bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant, PlacedDampers dampers,
+                         const PlantCase& one, std::size_t place, std::size_t samples,
+                         std::span<const PlantSensorPlace> sensors, Shown& shown) const {
+  if (!move(x, plant, dampers, one, place, samples, sensors, shown)) return false;
   sense(x, one.driving.sample_time, samples, shown);
   return true;
 }
@@ -366,16 +397,6 @@ std::size_t PlantResiduals::part_of(std::size_t place, std::size_t samples) cons
   std::size_t at = 0;
   for (std::size_t c = 0; c < place; ++c) at += residuals_of(c, samples);
   return at;
-}
-
-/// The law in one recording: a current that never changes leaves constant parameters, which are
-/// quicker.
-std::shared_ptr<const DamperModel> PlantResiduals::in_recording(LawModel law,
-                                                                const PlantCase& one) const {
-  if (!one.steady) return std::make_shared<LawModel>(std::move(law));
-  std::vector<double> parameters(law.law().params.size());
-  law.parameters_at(one.driving.current.front(), parameters.data());
-  return std::make_shared<LawModel>(LawModel::constant(law.law(), parameters));
 }
 
 /// The residuals of one recording, which begin at r[0], of what its plant shows before its sensors.
@@ -404,10 +425,10 @@ bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, 
   const PlantCase& one = cases_->all[place];
   RunBeside beside;
   if (keep && one.driving.method == PlantMethod::StraightForce) beside.keep = &keep->tangent;
-  const std::shared_ptr<const DamperModel> damper =
-      law_ ? in_recording(this->damper(x), one) : model(x);
+  const Dampers dampers = dampers_in(one, x);
   Shown shown;
-  if (!move(x, equations(x), *damper, one, place, end_of(one, samples), sensors_, shown, beside))
+  if (!move(x, equations(x), dampers.in_struts, one, place, end_of(one, samples), sensors_, shown,
+            beside))
     return false;
   if (keep) keep->shown = shown;
   return compare(x, place, samples, std::move(shown), r);
@@ -455,10 +476,9 @@ bool PlantResiduals::difference(std::span<const double> x, std::size_t place, st
     RunBeside beside;
     if (one.driving.method == PlantMethod::StraightForce) beside.follow = &at.tangent;
     if (k >= first_state_) beside.comes_back_to = &at.shown;
-    const std::shared_ptr<const DamperModel> damper =
-        law_ ? in_recording(this->damper(moved), one) : model(moved);
-    if (!move(moved, equations(moved), *damper, one, place, end_of(one, samples), sensors_, shown,
-              beside))
+    const Dampers dampers = dampers_in(one, moved);
+    if (!move(moved, equations(moved), dampers.in_struts, one, place, end_of(one, samples),
+              sensors_, shown, beside))
       return false;
   }
   if (!compare(moved, place, samples, std::move(shown), column)) return false;
@@ -468,19 +488,19 @@ bool PlantResiduals::difference(std::span<const double> x, std::size_t place, st
 
 /// The unknowns of the law's parameter to which k belongs, where they act as one: at a current that
 /// never changes.
-std::optional<LawUnknowns::Group> PlantResiduals::moved_as_one(std::size_t k,
-                                                               std::size_t place) const {
+std::optional<DamperUnknowns::Group> PlantResiduals::moved_as_one(std::size_t k,
+                                                                  std::size_t place) const {
   if (!law_ || !is_of_law(k) || !cases_->all[place].steady || law_->slows_filter()) return {};
   const std::size_t own = k - plant_unknowns();
-  for (const LawUnknowns::Group& group : law_->groups())
-    if (own >= group.first && own < group.first + group.count) return group;
+  for (const DamperUnknowns::Group& group : law_->groups())
+    if (own >= group.first && own < group.first + group.count()) return group;
   return {};
 }
 
 /// Likewise of all columns of such a parameter, at the price of one; a column may be empty.
 bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t place,
                                          std::size_t samples, std::span<const double> r,
-                                         const KnownRun& at, const LawUnknowns::Group& group,
+                                         const KnownRun& at, const DamperUnknowns::Group& group,
                                          bool other_way,
                                          std::span<const std::span<double>> columns) const {
   const PlantCase& one = cases_->all[place];
@@ -491,13 +511,13 @@ bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t 
 
   // The parameter a little more.
   const double step = law_->step(own, group) * (other_way ? -1 : 1);
-  const std::shared_ptr<const DamperModel> damper =
-      in_recording(law_->moved(own, group, step), one);
+  const Dampers dampers = laws_in(one, law_->moved(own, group, step));
   RunBeside beside;
   if (one.driving.method == PlantMethod::StraightForce) beside.follow = &at.tangent;
   Shown shown;
   std::vector<double> moved(r.size());
-  if (!move(x, equations(x), *damper, one, place, end_of(one, samples), sensors_, shown, beside) ||
+  if (!move(x, equations(x), dampers.in_struts, one, place, end_of(one, samples), sensors_, shown,
+            beside) ||
       !compare(x, place, samples, std::move(shown), moved))
     return false;
 
@@ -528,7 +548,7 @@ bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, st
              difference(x, c, samples, rows_of(c, r), runs[c], k, other_way, column(c, k));
     const std::size_t first = plant_unknowns() + group->first;
     std::vector<std::span<double>> own;
-    for (std::size_t other = first; other < first + group->count; ++other)
+    for (std::size_t other = first; other < first + group->count(); ++other)
       own.push_back(column(c, other));
     const bool is_asked = std::ranges::any_of(own, [](const auto& rows) { return !rows.empty(); });
     return k != first || !is_asked ||
@@ -701,7 +721,8 @@ PlantResiduals::Shown PlantResiduals::other_sensors(
   all.insert(all.end(), places.begin(), places.end());
   const PlantCase& one = cases_->all[recording];
   Shown shown;
-  if (!run(x, equations(x), *model(x), one, recording, one.training, all, shown)) return {};
+  if (!run(x, equations(x), dampers(x).in_struts, one, recording, one.training, all, shown))
+    return {};
   shown.erase(shown.begin(), shown.begin() + static_cast<std::ptrdiff_t>(sensors_.size()));
   for (std::vector<double>& samples : shown) {
     samples.resize(one.training);
@@ -717,13 +738,13 @@ double PlantResiduals::step_error(std::span<const double> x,
                                   int threads) const {
   const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps, cases_->method);
   const DrivenPlant plant = equations(x);
-  const std::shared_ptr<const DamperModel> damper = model(x);
+  const Dampers dampers = this->dampers(x);
   std::vector<double> worst(finer.all.size(), 0.0);
   parallel_for(finer.all.size(), threads, [&](std::size_t c) {
     const PlantCase& one = cases_->all[c];
     Shown coarse, fine;
-    if (!run(x, plant, *damper, one, c, one.training, sensors_, coarse) ||
-        !run(x, plant, *damper, finer.all[c], c, one.training, sensors_, fine)) {
+    if (!run(x, plant, dampers.in_struts, one, c, one.training, sensors_, coarse) ||
+        !run(x, plant, dampers.in_struts, finer.all[c], c, one.training, sensors_, fine)) {
       worst[c] = kUnbounded;
       return;
     }
@@ -745,11 +766,12 @@ double PlantResiduals::step_error(std::span<const double> x,
 
 bool PlantResiduals::diverges(std::span<const double> x) const {
   const DrivenPlant plant = equations(x);
-  const std::shared_ptr<const DamperModel> damper = model(x);
+  const Dampers dampers = this->dampers(x);
   Shown shown;
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const PlantCase& one = cases_->all[c];
-    if (!run(x, plant, *damper, one, c, one.driving.samples, sensors_, shown)) return true;
+    if (!run(x, plant, dampers.in_struts, one, c, one.driving.samples, sensors_, shown))
+      return true;
   }
   return false;
 }
@@ -765,7 +787,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
          {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
       places.push_back({own, 0, d});
 
-  const std::shared_ptr<const DamperModel> damper = model(x);
+  const Dampers dampers = this->dampers(x);
   figures.assign(cases_->all.size() * sensors_.size(), {});
   traces.assign(cases_->all.size(), {});
   parallel_for(cases_->all.size(), threads, [&](std::size_t c) {
@@ -776,7 +798,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
                        .training = one.training,
                        .measured = one.measured};
     Shown shown;
-    const bool finite = run(x, plant, *damper, one, c, count, places, shown);
+    const bool finite = run(x, plant, dampers.in_struts, one, c, count, places, shown);
 
     // Each sensor's offset is that of the part which was fitted; its errors with that taken off.
     for (std::size_t s = 0; s < sensors_.size(); ++s) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dashpot/identify.h"
-#include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/identify/fit/uncertainty.h"
+#include "dashpot/machine/damper_unknowns.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/input_noise.h"
@@ -42,15 +42,16 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
 
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
-/// delays. The law is that of every damper in the plant. A model may stand in the law's place, held
-/// as it is: then the damper has no unknowns, and its states begin at rest. All that it is made
+/// delays. The law is that of every damper in the plant, with numbers of its own in each kind. A
+/// model may stand in the law's place, held as it is: then the dampers have no unknowns, and their
+/// states begin at rest. All that it is made
 /// from must outlive it.
 class PlantResiduals : public InPlantUnknowns {
  public:
   using Shown = std::vector<std::vector<double>>;  ///< per sensor
 
   /// plant: where the plant's unknowns start, SI; scale: of the damper's motion.
-  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns& law,
+  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperUnknowns& law,
                  const std::vector<double>& plant, const DataScale& scale);
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperModel& held,
                  const std::vector<double>& plant, const DataScale& scale);
@@ -90,8 +91,8 @@ class PlantResiduals : public InPlantUnknowns {
   double size_at(std::size_t k, std::span<const double>) const override { return size_[k]; }
   FittedParameter described(std::size_t k, std::span<const double> x) const override;
   std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const override;
-  /// Of a law.
-  LawModel damper(std::span<const double> x) const;
+  /// The law of each kind of damper.
+  std::vector<LawModel> laws(std::span<const double> x) const;
 
   /// What sensors at other places would show in a recording, without offset and delay: per place
   /// the samples that are fitted, without their mean. Empty where it diverges.
@@ -110,18 +111,26 @@ class PlantResiduals : public InPlantUnknowns {
                 std::vector<InPlantTrace>& traces, int threads) const;
 
  private:
-  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns* law,
+  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperUnknowns* law,
                  const DamperModel* held, const std::vector<double>& plant, const DataScale& scale);
-  /// The damper at x: the law's, or the model that is held.
-  std::shared_ptr<const DamperModel> model(std::span<const double> x) const;
-  std::size_t law_unknowns() const { return law_ ? law_->size() : 0; }
+  /// Dampers, of each kind one, and in each strut the one of its kind.
+  struct Dampers {
+    std::vector<std::shared_ptr<const DamperModel>> kinds;
+    std::vector<const DamperModel*> in_struts;
+  };
+  /// Those at x: the laws, or the model that is held. In one recording: a current that never
+  /// changes leaves constant parameters, which are quicker.
+  Dampers dampers(std::span<const double> x) const;
+  Dampers dampers_in(const PlantCase& one, std::span<const double> x) const;
+  Dampers laws_in(const PlantCase& one, std::vector<LawModel> laws) const;
+  Dampers placed(std::vector<std::shared_ptr<const DamperModel>> kinds) const;
   DrivenPlant equations(std::span<const double> x) const;
   std::vector<double> state_at_first(std::span<const double> x, std::size_t place,
-                                     const DrivenPlant& plant, const DamperModel& damper) const;
-  bool run(std::span<const double> x, const DrivenPlant& plant, const DamperModel& damper,
+                                     const DrivenPlant& plant, PlacedDampers dampers) const;
+  bool run(std::span<const double> x, const DrivenPlant& plant, PlacedDampers dampers,
            const PlantCase& one, std::size_t place, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, Shown& shown) const;
-  bool move(std::span<const double> x, const DrivenPlant& plant, const DamperModel& damper,
+  bool move(std::span<const double> x, const DrivenPlant& plant, PlacedDampers dampers,
             const PlantCase& one, std::size_t place, std::size_t samples,
             std::span<const PlantSensorPlace> sensors, Shown& shown,
             const RunBeside& beside = {}) const;
@@ -140,17 +149,16 @@ class PlantResiduals : public InPlantUnknowns {
                     std::span<double> r, KnownRun* keep = nullptr) const;
   bool compare(std::span<const double> x, std::size_t place, std::size_t samples, Shown shown,
                std::span<double> r) const;
-  std::shared_ptr<const DamperModel> in_recording(LawModel law, const PlantCase& one) const;
   bool jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
                 std::span<double* const> columns, int threads) const;
-  std::optional<LawUnknowns::Group> moved_as_one(std::size_t k, std::size_t place) const;
+  std::optional<DamperUnknowns::Group> moved_as_one(std::size_t k, std::size_t place) const;
   double difference_step(std::span<const double> x, std::size_t k, bool other_way) const;
   bool difference(std::span<const double> x, std::size_t place, std::size_t samples,
                   std::span<const double> r, const KnownRun& at, std::size_t k, bool other_way,
                   std::span<double> column) const;
   bool difference_of_group(std::span<const double> x, std::size_t place, std::size_t samples,
                            std::span<const double> r, const KnownRun& at,
-                           const LawUnknowns::Group& group, bool other_way,
+                           const DamperUnknowns::Group& group, bool other_way,
                            std::span<const std::span<double>> columns) const;
   std::size_t residuals_of(std::size_t place, std::size_t samples) const;
   std::size_t part_of(std::size_t place, std::size_t samples) const;
@@ -160,8 +168,8 @@ class PlantResiduals : public InPlantUnknowns {
 
   const InPlantSetup* setup_;
   const PlantCases* cases_;
-  const LawUnknowns* law_;   ///< null: `held_` is the damper
-  const DamperModel* held_;  ///< null: the law is
+  const DamperUnknowns* law_;  ///< null: `held_` is the damper
+  const DamperModel* held_;    ///< null: the law is
   std::span<const StateInfo> law_states_;
   std::vector<PlantInputPlace> inputs_;
   std::vector<PlantSensorPlace> sensors_;

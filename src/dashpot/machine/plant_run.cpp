@@ -150,12 +150,7 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> in
   }
 }
 
-std::vector<double> DrivenPlant::at_rest(const DamperModel& damper, double drive) const {
-  return at_rest(std::vector<const DamperModel*>(dampers_.size(), &damper), drive);
-}
-
-std::vector<double> DrivenPlant::at_rest(std::span<const DamperModel* const> dampers,
-                                         double drive) const {
+std::vector<double> DrivenPlant::at_rest(PlacedDampers dampers, double drive) const {
   assert(dampers.size() == dampers_.size());
   std::vector<double> state(2 * size_);
   for (const DamperModel* damper : dampers) {
@@ -190,8 +185,8 @@ void DrivenPlant::accelerations(const PlantDriving& driving, std::size_t point, 
 }
 
 /// The rates of all states at a point in time, and the forces of the dampers.
-void DrivenPlant::rates(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
-                        std::size_t point, const double* state, double* out, Forces& forces) const {
+void DrivenPlant::rates(PlacedDampers dampers, const PlantDriving& driving, std::size_t point,
+                        const double* state, double* out, Forces& forces) const {
   std::size_t first = 2 * size_;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
     const std::size_t own = dampers[d]->state_size();
@@ -203,14 +198,16 @@ void DrivenPlant::rates(std::span<const DamperModel* const> dampers, const Plant
   accelerations(driving, point, state, forces.data(), out + size_);
 }
 
-void DrivenPlant::settle(const DamperModel& damper, const PlantDriving& driving,
+void DrivenPlant::settle(PlacedDampers dampers, const PlantDriving& driving,
                          std::span<double> state) const {
-  const std::size_t own = damper.state_size();
+  std::size_t place = 2 * size_;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
+    const std::size_t own = dampers[d]->state_size();
     const DamperInput first = damper_input(dampers_[d], driving, 0, state.data());
     DamperInput before = first;
     before.displacement -= driving.sample_time * first.velocity;
-    damper.advance(before, first, driving.sample_time, state.subspan(2 * size_ + d * own, own));
+    dampers[d]->advance(before, first, driving.sample_time, state.subspan(place, own));
+    place += own;
   }
 }
 
@@ -273,27 +270,18 @@ bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
   return finite;
 }
 
-bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
+bool DrivenPlant::run(PlacedDampers dampers, const PlantDriving& driving, std::size_t samples,
                       std::span<const PlantSensorPlace> sensors, std::span<double> state,
                       std::vector<std::vector<double>>& shown, const RunBeside& beside) const {
+  assert(dampers.size() == dampers_.size());
   shown.assign(sensors.size(), std::vector<double>(samples));
   if (driving.method == PlantMethod::RungeKutta)
-    return run_by_runge_kutta(std::vector<const DamperModel*>(dampers_.size(), &damper), driving,
-                              samples, sensors, state, shown, beside);
-  return run_under_straight_force(damper, driving, samples, sensors, state, shown, beside);
+    return run_by_runge_kutta(dampers, driving, samples, sensors, state, shown, beside);
+  return run_under_straight_force(dampers, driving, samples, sensors, state, shown, beside);
 }
 
-bool DrivenPlant::run(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
-                      std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                      std::span<double> state, std::vector<std::vector<double>>& shown) const {
-  assert(dampers.size() == dampers_.size() && driving.method == PlantMethod::RungeKutta);
-  shown.assign(sensors.size(), std::vector<double>(samples));
-  return run_by_runge_kutta(dampers, driving, samples, sensors, state, shown, {});
-}
-
-bool DrivenPlant::run_by_runge_kutta(std::span<const DamperModel* const> dampers,
-                                     const PlantDriving& driving, std::size_t samples,
-                                     std::span<const PlantSensorPlace> sensors,
+bool DrivenPlant::run_by_runge_kutta(PlacedDampers dampers, const PlantDriving& driving,
+                                     std::size_t samples, std::span<const PlantSensorPlace> sensors,
                                      std::span<double> state,
                                      std::vector<std::vector<double>>& shown,
                                      const RunBeside& beside) const {
@@ -326,26 +314,28 @@ bool DrivenPlant::run_by_runge_kutta(std::span<const DamperModel* const> dampers
   }
 }
 
-bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
+bool DrivenPlant::run_under_straight_force(PlacedDampers dampers, const PlantDriving& driving,
                                            std::size_t samples,
                                            std::span<const PlantSensorPlace> sensors,
                                            std::span<double> state,
                                            std::vector<std::vector<double>>& shown,
                                            const RunBeside& beside) const {
   const double h = driving.sample_time / static_cast<double>(driving.steps);
-  const std::size_t count = dampers_.size(), own = damper.state_size();
+  const std::size_t count = dampers_.size();
   PlantNumbers numbers{size_, damping_, stiffness_, {}, by_value_, by_rate_};
   for (const DamperPlace& place : dampers_) numbers.by_force.push_back(place.by_force);
   const PlantStep plant(numbers, h);
 
   // Each damper with its states, and what each newton at the end adds to its motion, of every one.
-  std::vector<DamperStep> steps(count, DamperStep(damper, h));
+  std::vector<DamperStep> steps;
   std::vector<std::span<double>> states;
   std::array<Forces, kMostDampers> moves, hastens;
-  for (std::size_t d = 0; d < count; ++d) {
+  for (std::size_t d = 0, place = 2 * size_; d < count; ++d) {
+    steps.emplace_back(*dampers[d], h);
     if (beside.keep) steps[d].keep(*beside.keep);
     if (beside.follow) steps[d].follow(*beside.follow, d, count);
-    states.push_back(state.subspan(2 * size_ + d * own, own));
+    states.push_back(state.subspan(place, dampers[d]->state_size()));
+    place += states.back().size();
     for (std::size_t e = 0; e < count; ++e) {
       moves[d][e] = along(dampers_[d].row, plant.by_end_force(e).data());
       hastens[d][e] = along(dampers_[d].row, plant.by_end_force(e).data() + size_);
@@ -355,7 +345,7 @@ bool DrivenPlant::run_under_straight_force(const DamperModel& damper, const Plan
   Forces forces, next;
   for (std::size_t d = 0; d < count; ++d) {
     from[d] = damper_input(dampers_[d], driving, 0, state.data());
-    forces[d] = next[d] = damper.force(from[d], states[d]);
+    forces[d] = next[d] = dampers[d]->force(from[d], states[d]);
   }
 
   ComesBack comes_back(beside.comes_back_to, shown);

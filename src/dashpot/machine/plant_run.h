@@ -12,8 +12,8 @@
 
 namespace dashpot {
 
-// A linear plant with a damper in each of its struts, all alike, run under measured inputs, several
-// steps per sample. What is not linear in it are the dampers alone.
+// A linear plant with a damper in each of its struts, run under measured inputs, several steps per
+// sample. What is not linear in it are the dampers alone.
 
 /// What moves a plant from outside.
 enum class PlantInput {
@@ -89,14 +89,17 @@ struct PlantDriving {
 
 /// Runs of which one differs hardly from the other.
 struct RunBeside {
-  /// Under a force that goes straight: one that keeps its steps in a tangent, or one that follows
-  /// it at half the price.
+  /// Under a force that goes straight, of dampers that have as many states each: one that keeps its
+  /// steps in a tangent, or one that follows it at half the price.
   RunTangent* keep = nullptr;
   const RunTangent* follow = nullptr;
   /// What the other one shows, by a run that differs from it in its beginning alone: once that is
   /// forgotten, the rest is taken from there.
   const std::vector<std::vector<double>>* comes_back_to = nullptr;
 };
+
+/// A damper for each strut of a plant, in their order; one may stand in several.
+using PlacedDampers = std::span<const DamperModel* const>;
 
 /// Where a damper stands in a plant of n coordinates.
 struct DamperPlace {
@@ -109,33 +112,27 @@ struct DamperPlace {
 /// The plant as numbers: q'' = forcing - C q' - K q - sum of row F, all by the inverse of the mass.
 class DrivenPlant {
  public:
-  /// A damper stands in each strut. Throws Error where the plant is not linear (stops, friction, a
-  /// tyre that lifts), where an input does not say under which of several tyres it is, and where it
-  /// finds nothing to move.
+  /// A damper is to stand in each strut. Throws Error where the plant is not linear (stops,
+  /// friction, a tyre that lifts), where an input does not say under which of several tyres it is,
+  /// and where it finds nothing to move.
   DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> inputs);
 
   std::size_t size() const { return size_; }
   const std::vector<DamperPlace>& dampers() const { return dampers_; }
 
-  /// Coordinates, velocities and the states of such dampers, with these at rest.
-  std::vector<double> at_rest(const DamperModel& damper, double drive) const;
-  /// Runs the plant with such dampers from `state` (q, q', states of each damper) over the first so
-  /// many samples; `state` is then that at the last of them. Per sensor `shown` gets the samples.
-  /// False where one of them is not finite. By Runge-Kutta the damper must be one that flows. Where
-  /// it comes back to another run, `state` is that at which it was left.
-  bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
+  /// Coordinates, velocities and the states of these dampers, one for each strut, with these at
+  /// rest; the states of one follow those of the other.
+  std::vector<double> at_rest(PlacedDampers dampers, double drive) const;
+  /// Runs the plant with these dampers from `state` (q, q', states of each damper) over the first
+  /// so many samples; `state` is then that at the last of them. Per sensor `shown` gets the
+  /// samples. False where one of them is not finite. By Runge-Kutta each damper must be one that
+  /// flows. Where it comes back to another run, `state` is that at which it was left.
+  bool run(PlacedDampers dampers, const PlantDriving& driving, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, std::span<double> state,
            std::vector<std::vector<double>>& shown, const RunBeside& beside = {}) const;
-  /// The same with a damper of its own in each strut, each of which flows, by Runge-Kutta alone;
-  /// the states of one follow those of the other.
-  std::vector<double> at_rest(std::span<const DamperModel* const> dampers, double drive) const;
-  bool run(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
-           std::size_t samples, std::span<const PlantSensorPlace> sensors, std::span<double> state,
-           std::vector<std::vector<double>>& shown) const;
   /// Brings the states of each damper over the sample before the first one, at the velocity of
   /// that: what a sharp hysteresis forgets at once is then no leap within the first step.
-  void settle(const DamperModel& damper, const PlantDriving& driving,
-              std::span<double> state) const;
+  void settle(PlacedDampers dampers, const PlantDriving& driving, std::span<double> state) const;
   /// Stiffness along a damper's way, N/m: of the plant alone; and the mass that it moves, kg: the
   /// means over the dampers.
   double stiffness_along() const;
@@ -158,11 +155,10 @@ class DrivenPlant {
       2 * kMostCoordinates + kMostDampers * kMostDamperStates;
   using Forces = std::array<double, kMostDampers>;
 
-  bool run_by_runge_kutta(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
-                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                          std::span<double> state, std::vector<std::vector<double>>& shown,
-                          const RunBeside& beside) const;
-  bool run_under_straight_force(const DamperModel& damper, const PlantDriving& driving,
+  bool run_by_runge_kutta(PlacedDampers dampers, const PlantDriving& driving, std::size_t samples,
+                          std::span<const PlantSensorPlace> sensors, std::span<double> state,
+                          std::vector<std::vector<double>>& shown, const RunBeside& beside) const;
+  bool run_under_straight_force(PlacedDampers dampers, const PlantDriving& driving,
                                 std::size_t samples, std::span<const PlantSensorPlace> sensors,
                                 std::span<double> state, std::vector<std::vector<double>>& shown,
                                 const RunBeside& beside) const;
@@ -172,8 +168,8 @@ class DrivenPlant {
             std::span<const PlantSensorPlace> sensors, const double* state,
             const double* acceleration, const double* forces,
             std::vector<std::vector<double>>& shown) const;
-  void rates(std::span<const DamperModel* const> dampers, const PlantDriving& driving,
-             std::size_t point, const double* state, double* out, Forces& forces) const;
+  void rates(PlacedDampers dampers, const PlantDriving& driving, std::size_t point,
+             const double* state, double* out, Forces& forces) const;
   DamperInput damper_input(const DamperPlace& place, const PlantDriving& driving, std::size_t point,
                            const double* state) const;
 

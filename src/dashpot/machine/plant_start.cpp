@@ -83,7 +83,7 @@ std::vector<double> regression_of(const InPlantSetup& setup, const PlantCases& c
 }
 
 /// The spring and dashpot that stands in for the damper at first.
-LawUnknowns spring_and_dashpot(const DataScale& scale, bool spring) {
+DamperUnknowns spring_and_dashpot(const InPlantSetup& setup, const DataScale& scale, bool spring) {
   std::vector<ParameterChoice> choices;
   for (const ParamInfo& row : find_law("bouc_wen").params) {
     ParameterChoice choice{.law = {}, .parameter = std::string(row.name)};
@@ -92,7 +92,7 @@ LawUnknowns spring_and_dashpot(const DataScale& scale, bool spring) {
     if (row.name == "gamma" || row.name == "beta") choice.fixed = row.value;
     choices.push_back(choice);
   }
-  return {find_law("bouc_wen"), scale, DriveUnit::None, OffsetMode::Record, choices};
+  return {{find_law("bouc_wen"), scale, DriveUnit::None, OffsetMode::Record, choices}, setup.kinds};
 }
 
 /// Twice the steps until half a step changes no sensor by more than a thousandth of what it shows.
@@ -189,7 +189,7 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   std::vector<SensorFigures> figures;
   std::vector<InPlantTrace> traces;
   {
-    const LawUnknowns law = spring_and_dashpot(scale, false);
+    const DamperUnknowns law = spring_and_dashpot(setup, scale, false);
     const PlantResiduals residuals(setup, cases, law, start.plant, scale);
     residuals.describe(residuals.start(start.plant), figures, traces, options.threads);
     if (!measure(traces))
@@ -200,7 +200,7 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   scale.force = std::max(scale.force, 1e-3 * dashpot * scale.speed);
 
   // Plant, spring and dashpot together; a spring only where the plant's own is known.
-  const LawUnknowns law = spring_and_dashpot(scale, setup.unknown.empty());
+  const DamperUnknowns law = spring_and_dashpot(setup, scale, setup.unknown.empty());
   const PlantResiduals residuals(setup, cases, law, start.plant, scale);
   LeastSquaresOptions solver;
   solver.max_iterations = kIterations;

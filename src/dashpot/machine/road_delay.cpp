@@ -63,8 +63,8 @@ class FitsByDelay {
     options_.monitor.check();
     const InPlantSetup setup = at_factor(setup_, factor);
     const PlantCases cases = cases_of(setup, steps_);
-    const LawUnknowns unknowns(law_, start_.scale, setup.drive_unit, OffsetMode::Record,
-                               options_.choices);
+    const DamperUnknowns unknowns(
+        {law_, start_.scale, setup.drive_unit, OffsetMode::Record, options_.choices}, setup.kinds);
     PlantResiduals residuals(setup, cases, unknowns, start_.plant, start_.scale);
     if (x_.empty()) x_ = residuals.start(start_.plant, start_.states);
 

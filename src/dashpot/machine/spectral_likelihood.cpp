@@ -111,7 +111,7 @@ class EndTerms {
 
 SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
                                        const std::vector<RiddenRecording>& rides,
-                                       const LawUnknowns& law, const std::vector<double>& plant,
+                                       const DamperUnknowns& law, const std::vector<double>& plant,
                                        const ObserverNoise& first, double force, bool has_more)
     : setup_(&setup), rides_(&rides), law_(&law), first_(first) {
   constexpr double kMostDelay = 20, kOfSampleRate = 0.4, kOfWaves = 0.9, kMostBeside = 10;
@@ -228,8 +228,8 @@ std::vector<double> SpectralLikelihood::start(const std::vector<double>& plant,
   return x;
 }
 
-LawModel SpectralLikelihood::damper(std::span<const double> x) const {
-  return law_->model(x.subspan(plant_unknowns(), law_->size()));
+std::vector<LawModel> SpectralLikelihood::laws(std::span<const double> x) const {
+  return law_->models(x.subspan(plant_unknowns(), law_->size()));
 }
 
 ObserverNoise SpectralLikelihood::noise(std::span<const double> x) const {
@@ -261,15 +261,18 @@ InPlantSetup SpectralLikelihood::setup_at(std::span<const double> x) const {
 SpectralLikelihood::Force SpectralLikelihood::force_of(std::span<const double> x,
                                                        std::size_t ride) const {
   const auto& motions = (*rides_)[ride].motions;
-  LawModel model = damper(x);
-  if (prepared_[ride].steady) {  // constant parameters are quicker
-    std::vector<double> parameters(model.law().params.size());
-    model.parameters_at(motions.front().front().current, parameters.data());
-    model = LawModel::constant(model.law(), parameters);
-  }
+  std::vector<LawModel> models = laws(x);
+  if (prepared_[ride].steady)  // constant parameters are quicker
+    for (LawModel& model : models) {
+      std::vector<double> parameters(model.law().params.size());
+      model.parameters_at(motions.front().front().current, parameters.data());
+      model = LawModel::constant(model.law(), parameters);
+    }
   Force found;
-  for (const std::vector<DamperInput>& motion : motions)
-    if (!add_force(model, std::span(motion).first(prepared_[ride].samples), found)) return {};
+  for (std::size_t d = 0; d < motions.size(); ++d)
+    if (!add_force(models[setup_->kinds.at(d)],
+                   std::span(motions[d]).first(prepared_[ride].samples), found))
+      return {};
   return found;
 }
 

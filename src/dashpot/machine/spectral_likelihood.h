@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/identify/fit/law_unknowns.h"
+#include "dashpot/machine/damper_unknowns.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/observer_tables.h"
@@ -45,7 +45,7 @@ class SpectralLikelihood final : public InPlantUnknowns {
  public:
   /// force: half span of the damper's, N, for the limits of the law's error.
   SpectralLikelihood(const InPlantSetup& setup, const std::vector<RiddenRecording>& rides,
-                     const LawUnknowns& law, const std::vector<double>& plant,
+                     const DamperUnknowns& law, const std::vector<double>& plant,
                      const ObserverNoise& first, double force, bool has_more = false);
 
   /// The unknowns of these numbers of the plant, SI, of the law, and of the first noise.
@@ -74,7 +74,8 @@ class SpectralLikelihood final : public InPlantUnknowns {
   std::size_t rides() const { return rides_->size(); }
   std::size_t sensors() const { return setup_->sensors.size(); }
 
-  LawModel damper(std::span<const double> x) const;
+  /// The law of each kind of damper.
+  std::vector<LawModel> laws(std::span<const double> x) const;
   ObserverNoise noise(std::span<const double> x) const;
   /// The setup with all that x says: the plant's numbers, delays, noise and road.
   InPlantSetup setup_at(std::span<const double> x) const;
@@ -113,7 +114,7 @@ class SpectralLikelihood final : public InPlantUnknowns {
 
   const InPlantSetup* setup_;
   const std::vector<RiddenRecording>* rides_;
-  const LawUnknowns* law_;
+  const DamperUnknowns* law_;
   ObserverNoise first_;
   std::vector<double> plant_;  ///< sizes
   double sample_time_, highest_;

@@ -129,11 +129,6 @@ void add_channel(Record& record, const std::string& name, const std::string& uni
       {.name = name, .unit = unit, .samples = std::move(samples), .origin = "simulated"});
 }
 
-bool all_alike(std::span<const DamperModel* const> dampers) {
-  return std::ranges::all_of(dampers,
-                             [&](const DamperModel* one) { return one == dampers.front(); });
-}
-
 std::vector<double> with_noise(std::vector<double> samples, double noise, Random& random) {
   for (double& sample : samples) sample += noise * random.normal();
   return samples;
@@ -244,11 +239,11 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
     bool goes = equations.run(models, driving, driving.samples, places, state, shown);
 
     // Dampers too stiff for that step go by their own, at the same points.
-    if (!goes && all_alike(dampers)) {
+    if (!goes) {
       driving.method = PlantMethod::StraightForce;
       driving.steps *= 2;
       state = equations.at_rest(models, level);
-      goes = equations.run(*models.front(), driving, driving.samples, places, state, shown);
+      goes = equations.run(models, driving, driving.samples, places, state, shown);
     }
     if (!goes)
       throw Error("the ride at " + format_number(level) + " " + to_string(setup.drive_unit),

@@ -104,16 +104,19 @@ struct Task {
   const InPlantOptions& options;
   std::vector<PlantRecording> fitted;  ///< what may be fitted of each recording
   std::vector<double> plant;           ///< where the plant's unknowns start, SI
+  std::vector<Domain> domains;         ///< of the motion of each kind of damper
 };
 
-/// The domain of the damper's motion in these records.
-Domain domain_of(const InPlantSetup& setup, const std::vector<Record>& records) {
+/// The domain of the motion of a kind of damper in these records, which are those of one damper of
+/// the plant after the other.
+Domain domain_of(std::size_t kind, const InPlantSetup& setup, const std::vector<Record>& records) {
+  const std::size_t dampers = setup.dampers();
   const auto range = [&](const std::string& name, double& low, double& high) {
     low = INFINITY;
     high = -INFINITY;
-    for (const Record& record : records) {
-      const Channel* channel = record.find(name);
-      if (!channel) continue;
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      const Channel* channel = records[r].find(name);
+      if (!channel || setup.kinds.at(r % dampers) != kind) continue;
       const auto [least, greatest] = std::ranges::minmax(channel->samples);
       low = std::min(low, least);
       high = std::max(high, greatest);
@@ -249,12 +252,22 @@ void ask_for_more(SpectralLikelihood& more, std::vector<double> x, const InPlant
   }
 }
 
+/// The dampers that were found, each where it stands.
+ObservedDampers in_struts(const InPlantReport& report, const InPlantSetup& setup) {
+  ObservedDampers dampers;
+  for (std::size_t d = 0; d < setup.dampers(); ++d) {
+    const FoundDamper& own = report.kinds[setup.kinds.at(d)];
+    dampers.push_back({own.model, own.domain});
+  }
+  return dampers;
+}
+
 /// Sensors one sample ahead, before and behind what was fitted, and the damper as it is observed.
 void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise& noise,
                 const std::vector<PlantRecording>& recordings, InPlantReport& report) {
   constexpr std::size_t kFewest = 200;  // samples held back that say something
   const auto look = [&](const std::vector<PlantRecording>& parts) {
-    return observe(report.model, report.domain, found, parts,
+    return observe(in_struts(report, found), found, parts,
                    {.force = noise.force,
                     .threads = task.options.threads,
                     .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
@@ -302,13 +315,14 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
 struct Point {
   std::vector<double> plant, law;
   ObserverNoise noise;
-  double gain_by_delays = 0;  ///< at the end
+  double gain_by_delays = 0, gain_by_kinds = 0;  ///< at the end
 };
 
 /// The most likely from here, or from where a parameter of the law does not follow the drive: one
 /// that takes on another's part at a low drive may be left there by the scoring.
-MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const LawUnknowns& unknowns,
-                                 const std::vector<double>& start, const InPlantOptions& options) {
+MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood,
+                                 const DamperUnknowns& unknowns, const std::vector<double>& start,
+                                 const InPlantOptions& options) {
   constexpr double kClearly = 20;  // of -log L
   const auto from = [&](std::vector<double> x) {
     return most_likely(likelihood, std::move(x), options.iterations, options.threads,
@@ -320,7 +334,7 @@ MostLikely most_likely_of_starts(const SpectralLikelihood& likelihood, const Law
   // Each in turn, beside the best so far.
   const std::vector<double> found = best.x;
   const std::span law = std::span(found).subspan(likelihood.plant_unknowns(), unknowns.size());
-  for (const LawUnknowns::Flattened& flat : unknowns.flattened(law)) {
+  for (const DamperUnknowns::Flattened& flat : unknowns.flattened(law)) {
     std::vector<double> x = best.x;
     std::ranges::copy(flat.unknowns,
                       x.begin() + static_cast<std::ptrdiff_t>(likelihood.plant_unknowns()));
@@ -346,21 +360,21 @@ std::optional<InPlantSetup> with_other_delays_unknown(InPlantSetup setup) {
   return asks ? std::optional(std::move(setup)) : std::nullopt;
 }
 
-/// By how much -log L would fall for each sample, to first order, if the delays were unknown too
-/// that the plant does not state.
-double gain_by_other_delays(const Task& task, const std::vector<RiddenRecording>& rides,
-                            const LawUnknowns& unknowns, double force, const Point& point) {
+/// By how much -log L would fall for each sample, to first order, if all of a setup's unknowns were
+/// so that has more of them; 0 where there is none. law: the unknowns of the dampers there.
+double gain_by_more(const std::optional<InPlantSetup>& beside, const Task& task,
+                    const std::vector<RiddenRecording>& rides, const DamperUnknowns& unknowns,
+                    const std::vector<double>& law, double force, const Point& point) {
   constexpr double kTrace = 1e-9;  // keeps what the law and the noise trade solvable
-  const std::optional<InPlantSetup> beside = with_other_delays_unknown(task.setup);
   if (!beside) return 0;
-  const SpectralLikelihood late(*beside, rides, unknowns, point.plant, point.noise, force);
-  const std::vector<double> start = late.start(point.plant, point.law);
+  const SpectralLikelihood more(*beside, rides, unknowns, point.plant, point.noise, force);
+  const std::vector<double> start = more.start(point.plant, law);
   const LikelihoodSlopes slopes =
-      most_likely(late, start, 0, task.options.threads, task.options.monitor).slopes;
+      most_likely(more, start, 0, task.options.threads, task.options.monitor).slopes;
   if (!slopes.finite) return 0;
 
   // A step of the scoring.
-  const std::size_t n = late.size();
+  const std::size_t n = more.size();
   std::vector<double> matrix = slopes.information, step(n);
   for (std::size_t k = 0; k < n; ++k)
     matrix[k * (n + 1)] = std::max(matrix[k * (n + 1)] * (1 + kTrace), 1e-300);
@@ -373,7 +387,7 @@ double gain_by_other_delays(const Task& task, const std::vector<RiddenRecording>
 
 /// The most likely of all unknowns along the observed motion, from `point`, which moves there. The
 /// setup as it was found; the report has no model where the law diverges. `last`: intervals too.
-InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double force,
+InPlantSetup fit_along(const Task& task, const DamperUnknowns& unknowns, double force,
                        const ObserveReport& observed, bool last, Point& point,
                        InPlantReport& report) {
   const InPlantOptions& options = task.options;
@@ -394,12 +408,17 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
       last ? most_likely(likelihood, start, options.iterations, options.threads, options.monitor)
            : most_likely_of_starts(likelihood, unknowns, start, options);
   report.iterations += found.iterations;
-  report.model = nullptr;
+  report.kinds.clear();
   if (!found.slopes.finite) {
     report.message = "the law diverges along the motion that the sensors tell";
     return task.setup;
   }
-  report.model = std::make_shared<LawModel>(likelihood.damper(found.x));
+  for (LawModel& law : likelihood.laws(found.x)) {
+    const std::size_t kind = report.kinds.size();
+    report.kinds.push_back({task.setup.kinds.names[kind],
+                            task.setup.kinds.struts(kind, task.setup.dampers()),
+                            std::make_shared<LawModel>(std::move(law)), task.domains[kind]});
+  }
   for (std::size_t k = 0; k < point.plant.size(); ++k)
     point.plant[k] = likelihood.described(k, found.x).value;
   std::copy_n(found.x.begin() + static_cast<std::ptrdiff_t>(point.plant.size()), unknowns.size(),
@@ -415,7 +434,13 @@ InPlantSetup fit_along(const Task& task, const LawUnknowns& unknowns, double for
     add_parameters(likelihood, found.x, spread, report);
     mend_intervals(likelihood, report);
     add_warnings(likelihood, spread, report);
-    point.gain_by_delays = gain_by_other_delays(task, rides, unknowns, force, point);
+    point.gain_by_delays = gain_by_more(with_other_delays_unknown(task.setup), task, rides,
+                                        unknowns, point.law, force, point);
+    if (const std::optional<InPlantSetup> unlike = with_unlike_dampers(task.setup)) {
+      const DamperUnknowns apart = unknowns.in_kinds(unlike->kinds);
+      point.gain_by_kinds =
+          gain_by_more(unlike, task, rides, apart, apart.alike(point.law), force, point);
+    }
     SpectralLikelihood more(task.setup, rides, unknowns, point.plant, point.noise, force, true);
     ask_for_more(more, more.start(point.plant, point.law), options, report);
   }
@@ -435,18 +460,23 @@ std::pair<double, double> drive_range(const InPlantSetup& setup,
   return {low, high};
 }
 
-/// All stages of a fit of the setup as it stands. is_late: whether delays that it does not state
-/// would make the recordings far more likely.
+/// What speaks for a fit once more, with more unknowns.
+struct UntoldDoubts {
+  bool is_late = false;     ///< delays that the plant does not state make the recordings likelier
+  bool are_unlike = false;  ///< so do dampers that are not alike
+};
+
+/// All stages of a fit of the setup as it stands.
 InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
                                const std::vector<PlantRecording>& recordings,
-                               const InPlantOptions& options, bool& is_late) {
+                               const InPlantOptions& options, UntoldDoubts& doubts) {
   constexpr double kWorthATry = 0.01;  // of -log L, for each sample
   InPlantReport report;
   report.road_measured = false;
   report.step_error = std::numeric_limits<double>::quiet_NaN();
   const auto [low, high] = drive_range(setup, recordings);
   require_drive(law, setup, low, high, options, report.warnings);
-  Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings)};
+  Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings), {}};
   task.fitted = fitted_parts(setup, recordings);
 
   // The dampers' motion and force without the law, and the law as a bench would find it.
@@ -457,27 +487,31 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
   const DataScale size = data_scale(records, setup.drive_unit);
   const std::shared_ptr<const DamperModel> from_bench =
       fit_as_on_bench(law, setup, records, options);
-  const LawUnknowns unknowns(from_bench ? from_bench->law_inside()->law() : law, size,
-                             setup.drive_unit, OffsetMode::Record, options.choices);
+  const DamperUnknowns unknowns({from_bench ? from_bench->law_inside()->law() : law, size,
+                                 setup.drive_unit, OffsetMode::Record, options.choices},
+                                setup.kinds);
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
-  std::vector<double> law_numbers =
-      from_bench ? unknowns.off_bounds(unknowns.of(*from_bench->law_inside())) : unknowns.start();
+  std::vector<double> law_numbers = unknowns.start();
+  if (from_bench)
+    law_numbers = unknowns.off_bounds(
+        unknowns.of(std::vector<LawModel>(setup.kinds.size(), *from_bench->law_inside())));
 
   // The most likely of all, and once more along the motion that a filter with that sees.
   constexpr double kFirstError = 0.1;
   ObserverNoise noise = observed.noise;
   noise.force = {{kFirstError * size.force, 0.01}, {kFirstError * size.force, 0.3}};
   Point point{task.plant, std::move(law_numbers), noise};
-  report.domain = domain_of(setup, records);
+  for (std::size_t kind = 0; kind < setup.kinds.size(); ++kind)
+    task.domains.push_back(domain_of(kind, setup, records));
   try {
     for (const bool last : {false, true}) {
       options.monitor.report(last ? "fit, along the motion as now observed" : "fit",
                              last ? 0.6 : 0.3);
       const InPlantSetup found =
           fit_along(task, unknowns, size.force, observed, last, point, report);
-      if (!report.model) break;
+      if (!report.has_models()) break;
       if (!last) {
-        observed = observe(report.model, report.domain, found, task.fitted,
+        observed = observe(in_struts(report, found), found, task.fitted,
                            {.force = point.noise.force, .threads = options.threads});
         continue;
       }
@@ -486,14 +520,30 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
         report.force_error = std::hypot(report.force_error, error.deviation);
       add_traces(task, found, point.noise, recordings, report);
       std::ranges::move(noise_doubts(setup, report), std::back_inserter(report.warnings));
-      is_late = point.gain_by_delays > kWorthATry;
+      doubts = {point.gain_by_delays > kWorthATry, point.gain_by_kinds > kWorthATry};
     }
   } catch (const Error& error) {
     // A filter with this law diverges; those of other laws may not.
-    report.model = nullptr;
+    report.kinds.clear();
     report.status = FitReport::Status::Failed;
     report.message = error.what();
   }
+  return report;
+}
+
+/// Once more with dampers that are not alike, of which the plant does not say that they are. Taken
+/// where the fit gets on; `setup` then says so.
+InPlantReport fit_unlike_ones(const Law& law, InPlantSetup& setup,
+                              const std::vector<PlantRecording>& recordings,
+                              const InPlantOptions& options, InPlantReport as_stated,
+                              UntoldDoubts& doubts) {
+  const InPlantSetup unlike = *with_unlike_dampers(setup);
+  UntoldDoubts then;
+  InPlantReport report = fit_without_road(law, unlike, recordings, options, then);
+  if (!report.has_models()) return as_stated;
+  report.warnings.push_back(unlike_found(unlike));
+  setup = unlike;
+  doubts = then;
   return report;
 }
 
@@ -506,13 +556,13 @@ InPlantReport fit_beside_other_delays(const Law& law, const InPlantSetup& setup,
   constexpr double kClearly = 0.7;  // of the force; half the power
   constexpr double kLate = 0.001;   // s
   const InPlantSetup beside = *with_other_delays_unknown(setup);
-  bool is_late = false;
-  InPlantReport report = fit_without_road(law, beside, recordings, options, is_late);
+  UntoldDoubts then;
+  InPlantReport report = fit_without_road(law, beside, recordings, options, then);
   double most = 0;
   for (const FittedParameter& p : report.nuisances)
     if (p.name.starts_with("delay of ")) most = std::max(most, std::abs(p.value));
   const bool is_better =
-      report.model && most > kLate && report.force_error < kClearly * as_stated.force_error;
+      report.has_models() && most > kLate && report.force_error < kClearly * as_stated.force_error;
   if (!is_better) return as_stated;
 
   // What was found, and beside which sensor.
@@ -530,10 +580,13 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   const double started = cpu_seconds();
   require_setup(setup);
   require_tellable(setup, recordings);
-  bool is_late = false;
-  InPlantReport report = fit_without_road(law, setup, recordings, options, is_late);
-  if (report.model && is_late)
-    report = fit_beside_other_delays(law, setup, recordings, options, std::move(report));
+  UntoldDoubts doubts;
+  InPlantSetup as_taken = setup;
+  InPlantReport report = fit_without_road(law, setup, recordings, options, doubts);
+  if (report.has_models() && doubts.are_unlike)
+    report = fit_unlike_ones(law, as_taken, recordings, options, std::move(report), doubts);
+  if (report.has_models() && doubts.is_late)
+    report = fit_beside_other_delays(law, as_taken, recordings, options, std::move(report));
   report.seconds = cpu_seconds() - started;
   return report;
 }
