@@ -338,6 +338,16 @@ DASHPOT_API dashpot_status dashpot_identify_in_plant(const dashpot_rides* rides,
                                                      const char* options,
                                                      const dashpot_monitor* monitor,
                                                      dashpot_model** model, char** report);
+/// The same where dampers need not be alike (dashpot_identify_in_plant takes them for such): each
+/// kind that the plant states or the sensors tell apart has a model of its own. `models`: `room`
+/// places, as many as the plant has dampers; the first `count` of them are set, in the order in
+/// which "found" of the report has the kinds under "damper_kinds", each with its struts; without
+/// that there is one.
+DASHPOT_API dashpot_status dashpot_identify_dampers_in_plant(const dashpot_rides* rides,
+                                                             const char* plant, const char* options,
+                                                             const dashpot_monitor* monitor,
+                                                             dashpot_model** models, size_t room,
+                                                             size_t* count, char** report);
 
 /// What no sensor showed of a plant whose damper is known: `dashpot observe`. Options (null: none):
 /// {"causal": false, "force_error": [[N, s], ...], "level": 0.9, "steps": 0, "threads": 0}.
@@ -352,7 +362,7 @@ DASHPOT_API dashpot_status dashpot_observe(const dashpot_model* model, const das
                                            const dashpot_monitor* monitor,
                                            dashpot_recordings** estimates, char** report);
 
-/// The damper in one strut of a plant, as "front".
+/// The damper in one strut of a plant, as "front", or those of one kind.
 typedef struct {
   const char* strut;
   const dashpot_model* model;

@@ -44,13 +44,17 @@ std::vector<PlantRecording> recordings_of(const dashpot_rides* rides, const InPl
   return recordings;
 }
 
-void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWords& words,
-                  const dashpot_monitor* monitor, dashpot_model** model, char** report) {
-  const InPlantSetup setup = setup_of(plant);
-  require_alike(setup, "a call that hands over a model");
-  const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
+/// What a fit in a plant is made from.
+struct InPlantWork {
+  InPlantSetup setup;
+  std::vector<PlantRecording> recordings;
+  InPlantWords words;
+};
+
+InPlantReport identify(const InPlantWork& work, const dashpot_monitor* monitor, char** report) {
+  const InPlantWords& words = work.words;
   const std::vector<std::string>& models = words.fit.words.models;
-  require_model_for_plant(models.front(), setup, "options, models");
+  require_model_for_plant(models.front(), work.setup, "options, models");
   find_sensor_grade(words.grade, "options, grade");
   const IdentifyOptions fit = identify_options(words.fit.words, models, "options, ");
   InPlantOptions options{.choices = fit.choices,
@@ -65,23 +69,34 @@ void identify_one(const dashpot_rides* rides, const char* plant, const InPlantWo
   InPlantReport found;
   run_watched(monitor, [&](const Monitor& watched) {
     options.monitor = watched;
-    found = identify_in_plant(models, setup, recordings, options).back().report;
+    found = identify_in_plant(models, work.setup, work.recordings, options).back().report;
   });
 
   // The report is written before a failed fit is refused, since it says why.
   if (report) {
     Value told = to_json(found, models.front());
-    if (found.has_models()) told.add("found", to_json(as_found(setup, found)));
+    if (found.has_models()) told.add("found", to_json(as_found(work.setup, found)));
     *report = copy_text(format_json(presentable(told)));
   }
   if (!found.has_models()) throw NotUsable(models.front(), found.message);
-  ModelFile file = found_damper(found.kinds.front(), found, setup, recordings.front().sample_time);
+  return found;
+}
+
+/// A damper that was found, as the caller holds it.
+dashpot_model* model_of(const FoundDamper& damper, const InPlantReport& found,
+                        const InPlantWork& work) {
+  ModelFile file = found_damper(damper, found, work.setup, work.recordings.front().sample_time);
   file.provenance.created = date_now();
-  file.provenance.command = words.fit.command;
-  file.provenance.dataset = "identified in a plant: " + std::string(setup.model->name);
-  for (const PlantRecording& recording : recordings)
+  file.provenance.command = work.words.fit.command;
+  file.provenance.dataset = "identified in a plant: " + std::string(work.setup.model->name);
+  for (const PlantRecording& recording : work.recordings)
     file.provenance.training_records.push_back(recording.name);
-  *model = new dashpot_model(std::move(file));
+  return new dashpot_model(std::move(file));
+}
+
+InPlantWork work_of(const dashpot_rides* rides, const char* plant, const char* options) {
+  const InPlantSetup setup = setup_of(plant);
+  return {setup, recordings_of(rides, setup), read_in_plant_options(options)};
 }
 
 /// The models of a plant's dampers, in the order of its struts.
@@ -94,7 +109,7 @@ PlacedModels in_each_strut(const dashpot_model* model, const InPlantSetup& setup
   return PlacedModels(setup.dampers(), model);
 }
 
-/// A model for each strut, by its name.
+/// A model for each strut, by its name or that of its kind.
 PlacedModels by_struts(const dashpot_placed_model* dampers, size_t count,
                        const InPlantSetup& setup) {
   require(dampers, "dampers");
@@ -104,15 +119,16 @@ PlacedModels by_struts(const dashpot_placed_model* dampers, size_t count,
   for (size_t k = 0; k < count; ++k) {
     require(dampers[k].strut, "strut");
     require(dampers[k].model, "model");
-    const auto place = std::ranges::find(struts, dampers[k].strut) - struts.begin();
-    if (place == std::ssize(struts))
+    const std::vector<size_t> places = dampers_named(setup, dampers[k].strut);
+    if (places.empty())
       throw Error("dampers", "the plant has no damper '" + std::string(dampers[k].strut) + "'",
-                  suggest(dampers[k].strut, struts));
-    if (models[static_cast<size_t>(place)])
-      throw Error("dampers",
-                  "the damper '" + struts[static_cast<size_t>(place)] + "' has two models",
-                  "one of each damper");
-    models[static_cast<size_t>(place)] = dampers[k].model;
+                  suggest(dampers[k].strut, damper_names(setup)));
+    for (const size_t d : places) {
+      if (models[d])
+        throw Error("dampers", "the damper '" + struts[d] + "' has two models",
+                    "one of each damper");
+      models[d] = dampers[k].model;
+    }
   }
   for (size_t d = 0; d < struts.size(); ++d)
     if (!models[d])
@@ -291,7 +307,33 @@ dashpot_status dashpot_identify_in_plant(const dashpot_rides* rides, const char*
     if (report) *report = nullptr;
     require(model, "model");
     *model = nullptr;
-    identify_one(rides, plant, read_in_plant_options(options), monitor, model, report);
+    InPlantWork work = work_of(rides, plant, options);
+    require_alike(work.setup, "dashpot_identify_in_plant");
+    work.setup.kinds.are_stated = true;
+    const InPlantReport found = identify(work, monitor, report);
+    *model = model_of(found.kinds.front(), found, work);
+  });
+}
+
+dashpot_status dashpot_identify_dampers_in_plant(const dashpot_rides* rides, const char* plant,
+                                                 const char* options,
+                                                 const dashpot_monitor* monitor,
+                                                 dashpot_model** models, size_t room, size_t* count,
+                                                 char** report) {
+  return guarded([&] {
+    if (report) *report = nullptr;
+    require(models, "models");
+    require(count, "count");
+    std::fill_n(models, room, nullptr);
+    *count = 0;
+    const InPlantWork work = work_of(rides, plant, options);
+    if (room < work.setup.dampers())
+      throw Error(
+          "room", "is " + std::to_string(room),
+          "one for each of the plant's " + std::to_string(work.setup.dampers()) + " dampers");
+    const InPlantReport found = identify(work, monitor, report);
+    for (const FoundDamper& damper : found.kinds)
+      models[(*count)++] = model_of(damper, found, work);
   });
 }
 

@@ -139,6 +139,65 @@ TEST_CASE("dampers inside a plant: the force of each is observed by its strut's 
   CHECK(std::equal(once.data, once.data + 400, twice.data));
 }
 
+TEST_CASE("dampers inside a plant: a model of each kind, and none for all") {
+  const dashpot::Law& law = dashpot::find_law("tanh_guo");
+  const auto damper = [&](double damping, double friction) {
+    std::vector<double> p(law.params.size());
+    p[law.index_of("A1")] = friction;
+    p[law.index_of("A2")] = damping;
+    p[law.index_of("A3")] = 20;
+    p[law.index_of("X0")] = 1;
+    return dashpot::LawModel::constant(law, p);
+  };
+  const dashpot::LawModel weak = damper(300, 40), strong = damper(900, 160);
+  const dashpot::VirtualRide ride =
+      dashpot::virtual_campaign(dashpot::parse_in_plant_setup(kTwoDampers, "plant"),
+                                std::vector<const dashpot::DamperModel*>{&weak, &strong},
+                                {.duration = 4, .sample_rate = 200, .levels = {1}, .push = 900})
+          .front();
+  Rides rides;
+  REQUIRE(dashpot_rides_new(&rides) == DASHPOT_OK);
+  REQUIRE(add(rides, ride.recorded) == DASHPOT_OK);
+  const std::string plant = std::string(kTwoDampers) + "damper_kinds: {b: high, a: low}\n";
+  const char* const options = R"({"models": ["tanh_guo"], "starts": 2})";
+
+  dashpot_model* found[2];
+  size_t count = 0;
+  Text report;
+  REQUIRE(dashpot_identify_dampers_in_plant(rides, plant.c_str(), options, nullptr, found, 2,
+                                            &count, &report) == DASHPOT_OK);
+  REQUIRE(count == 2);
+  Model high, low;
+  *&high = found[0];
+  *&low = found[1];
+  const dashpot::Value told = dashpot::parse_json(report.handle, "report");
+  CHECK(told.find("found")->find("damper_kinds")->members()[0].first == "b");
+  for (const auto& [model, truth] : {std::pair(&high, &strong), {&low, &weak}}) {
+    double force = 0;
+    const dashpot_input input = {0.01, 0.2, 1};
+    REQUIRE(dashpot_force(*model, &input, nullptr, 0, &force) == DASHPOT_OK);
+    CHECK_CLOSE(force, truth->force({0.01, 0.2, 1}, {}), 0.1, 0);
+  }
+
+  // By the names of their kinds they observe the plant that was found.
+  const dashpot_placed_model each[] = {{"a", low}, {"b", high}};
+  Recordings estimates;
+  const std::string as_found = dashpot::format_json(*told.find("found"));
+  CHECK(dashpot_observe_dampers(each, 2, rides, as_found.c_str(), nullptr, nullptr, &estimates,
+                                nullptr) == DASHPOT_OK);
+
+  // No room, and a call that hands over one.
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
+                            dashpot_identify_dampers_in_plant(rides, plant.c_str(), options,
+                                                              nullptr, found, 1, &count, nullptr)),
+                 "room: is 1; one for each of the plant's 2 dampers"));
+  Model none;
+  CHECK(contains(
+      message_of(DASHPOT_BAD_INPUT,
+                 dashpot_identify_in_plant(rides, plant.c_str(), options, nullptr, &none, nullptr)),
+      "are 2 (b, a), and dashpot_identify_in_plant knows one"));
+}
+
 TEST_CASE("dampers inside a plant, watched: which of them fades, and what is said of the days" *
           doctest::test_suite("long")) {
   const Model model = published("kwok2006");

@@ -78,6 +78,11 @@ std::map<std::string, Call> null_calls() {
        [] {
          return dashpot_identify_in_plant(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
        }},
+      {"identify_dampers_in_plant",
+       [] {
+         return dashpot_identify_dampers_in_plant(nullptr, nullptr, nullptr, nullptr, nullptr, 0,
+                                                  nullptr, nullptr);
+       }},
       {"observe",
        [] {
          return dashpot_observe(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);

@@ -215,6 +215,22 @@ TEST_CASE("observe: dampers of a half car by the names of their struts" *
   const auto each = truth_of("rear=" + spencer + ",front=" + spencer);
   CHECK(each[1].find("error")->as_number() == both[1].find("error")->as_number());
 
+  // By the kinds of a plant whose dampers are not alike; one model is then none for all.
+  const std::string kinds =
+      folder.write("kinds.yaml", read_file(car) + "damper_kinds: {new: rear, old: front}\n")
+          .string();
+  const auto by_kinds = [&](const std::string& model) {
+    return stdout_of_dashpot("observe " + model + " --in " + kinds +
+                             with.substr(with.find(rides) - 1));
+  };
+  const ProgramResult of_kinds = by_kinds("new=" + spencer + ",old=" + spencer);
+  REQUIRE(of_kinds.exit_code == 0);
+  CHECK(
+      parse_json(of_kinds.output, "stdout").find("truth")->items()[1].find("error")->as_number() ==
+      both[1].find("error")->as_number());
+  CHECK(contains(run_dashpot("observe " + spencer + " --in " + kinds + ' ' + rides).output,
+                 "MODEL: is one, and the plant has dampers of 2 kinds; new=FILE,old=FILE"));
+
   // What cannot be used.
   const auto refusal = [&](const std::string& model) {
     return run_dashpot("observe " + model + with).output;

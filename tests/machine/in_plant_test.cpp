@@ -397,7 +397,7 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
   ModelFile file;
   file.model = report.kinds.front().model->with_offset(0);
   file.drive_unit = DriveUnit::Volt;
-  file.domain = report.domain;
+  file.domain = report.kinds.front().domain;
   for (const double voltage : {0.0, 2.0}) {
     const Record truth = ride(voltage, 9, {}, nullptr);
     const Record modelled = ride(voltage, 9, {}, &file);

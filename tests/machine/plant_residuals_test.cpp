@@ -92,7 +92,8 @@ TEST_CASE("plant residuals: columns are the differences of runs, however they ar
       if (method == PlantMethod::StraightForce && !tried.step) continue;
       const PlantCases cases = make_cases(setup, recordings, 4, method);
       DataScale scale{.force = 1000, .stroke = 0.02, .speed = 0.3, .drive = {0, 1, true, 1}};
-      const LawUnknowns unknowns(tried, scale, setup.drive_unit, OffsetMode::Record);
+      const DamperUnknowns unknowns({tried, scale, setup.drive_unit, OffsetMode::Record},
+                                    setup.kinds);
       const PlantResiduals residuals(setup, cases, unknowns, {350, 2e5}, scale);
       const std::vector<double> states{0.01, 0.002, -0.1, 0.05, 0,   0.001,
                                        0.1,  0.2,   0,    0.01, 0.3, -0.1};
@@ -100,5 +101,33 @@ TEST_CASE("plant residuals: columns are the differences of runs, however they ar
       x[residuals.first_delay()] = 0.7;
       CHECK(worst_column(residuals.problem(), x) < kClose);
     }
+  }
+}
+
+TEST_CASE(
+    "plant residuals: columns of dampers of two kinds, one of which is another than the other") {
+  constexpr double kClose = 0.03;
+  InPlantSetup setup = car();
+  setup.model = &find_machine("half_car", "test");
+  setup.known = {};
+  setup.unknown = {{"mass", 100, 1000, 600}};
+  setup.inputs = {{"road", {PlantInput::Ground, 0, 0}}, {"level", {PlantInput::Ground, 0, 1}}};
+  setup.sensors = {{.channel = "body", .place = {PlantQuantity::Acceleration, 0}}};
+  setup.kinds = {.names = {"front", "rear"}, .of = {0, 1}};
+  setup.from_rest = true;
+  const std::vector<PlantRecording> recordings = {rough_road(1, false, 1), rough_road(3, true, 0)};
+  for (const std::string law : {"tanh_guo", "modified_bouc_wen"}) {
+    INFO(law);
+    const Law& tried = find_law(law);
+    const PlantCases cases = make_cases(
+        setup, recordings, 4, tried.step ? PlantMethod::StraightForce : PlantMethod::RungeKutta);
+    DataScale scale{.force = 1000, .stroke = 0.02, .speed = 0.3, .drive = {0, 1, true, 1}};
+    const DamperUnknowns unknowns({tried, scale, setup.drive_unit, OffsetMode::Record},
+                                  setup.kinds);
+    const PlantResiduals residuals(setup, cases, unknowns, {600}, scale);
+    std::vector<double> x = residuals.start({600});
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (residuals.is_of_law(k)) x[k] *= 1 + 0.01 * static_cast<double>(k);
+    CHECK(worst_column(residuals.problem(), x) < kClose);
   }
 }

@@ -1,4 +1,5 @@
-// Half and full cars: a damper in each strut, all alike, and a road under each tyre.
+// Half and full cars: a damper in each strut, alike or of several kinds, and a road under each
+// tyre.
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/machine/watch.h"
+#include "dashpot/machine/worn_damper.h"
 #include "dashpot/simulate.h"
 #include "dashpot/vehicle.h"
 #include "support.h"
@@ -212,6 +214,7 @@ TEST_CASE(
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 3, .grade = ""});
   REQUIRE(report.has_models());
+  CHECK(report.kinds.size() == 1);  // they are alike
   CHECK_CLOSE(found_of(report.plant, "mass").value, 690, 0.02, 0);
   CHECK_CLOSE(found_of(report.plant, "inertia").value, 1222, 0.02, 0);
   CHECK_CLOSE(found_of(report.plant, "rear_tyre_stiffness").value, 2e5, 0.02, 0);
@@ -223,7 +226,7 @@ TEST_CASE(
   ModelFile file;
   file.model = report.kinds.front().model->with_offset(0);
   file.drive_unit = DriveUnit::Volt;
-  file.domain = report.domain;
+  file.domain = report.kinds.front().domain;
   const GroundPointer other = wide_road(9);
   for (const double voltage : {0.0, 2.0}) {
     const Record truth = simulated_car("half_car", voltage, 8, *other);
@@ -233,6 +236,113 @@ TEST_CASE(
       CHECK(share_between(modelled.channel(force).samples, truth.channel(force).samples) < 0.1);
     }
   }
+}
+
+TEST_CASE("several dampers: one of its own in each strut goes by both methods alike") {
+  const Plant plant = make_plant(find_machine("half_car", "test"), {});
+  const DrivenPlant equations(plant, roads_under(plant));
+  const PlantSensorPlace places[] = {{PlantQuantity::DamperForce, 0, 0},
+                                     {PlantQuantity::DamperForce, 0, 1}};
+  const LawModel front = load_parameters("spencer1997"), rear = load_parameters("sakai2003");
+  REQUIRE(front.state_size() != rear.state_size());
+  const DamperModel* const dampers[] = {&front, &rear};
+  const auto run = [&](PlantMethod method, std::size_t steps) {
+    const PlantDriving driving = driving_under(plant, *wide_road(5), 1, steps, method, 1);
+    std::vector<double> state = equations.at_rest(dampers, 1);
+    std::vector<std::vector<double>> shown;
+    REQUIRE(equations.run(dampers, driving, driving.samples, places, state, shown));
+    return shown;
+  };
+  const auto explicitly = run(PlantMethod::RungeKutta, 40),
+             straight = run(PlantMethod::StraightForce, 8);
+  for (std::size_t d = 0; d < 2; ++d) CHECK(share_between(straight[d], explicitly[d]) < 5e-3);
+}
+
+/// Rides of kHalfCarFile as it is in truth, the damper of the rear strut a third weaker.
+std::vector<PlantRecording> rides_with_weak_rear(InPlantSetup setup, double seconds) {
+  for (const auto& [name, value] :
+       NamedValues{{"mass", 690}, {"inertia", 1222}, {"rear_tyre_stiffness", 2e5}})
+    setup.known.emplace_back(name, value);
+  setup.unknown.clear();
+  for (PlantInputChannel& input : setup.inputs) input.noise = 1e-4;
+  const std::vector<double> noise{0.05, 0.005, 0.5, 2e-4};
+  for (std::size_t s = 0; s < noise.size(); ++s) setup.sensors[s].noise = noise[s];
+  const auto as_new = std::make_shared<LawModel>(load_parameters("spencer1997"));
+  const WornDamper weak(mounted(as_new, 0), {{&find_wear("force", "test"), -1.0 / 3}});
+  const DamperModel* const dampers[] = {as_new.get(), &weak};
+  std::vector<PlantRecording> recordings;
+  for (const VirtualRide& ride : virtual_campaign(setup, dampers,
+                                                  {.duration = seconds,
+                                                   .sample_rate = 500,
+                                                   .levels = {0, 2},
+                                                   .road = "iso8608,class=C,speed=20m/s"}))
+    recordings.push_back({.name = ride.recorded.name,
+                          .sample_time = ride.recorded.sample_time,
+                          .samples = ride.recorded.size(),
+                          .channels = ride.recorded.channels});
+  return recordings;
+}
+
+TEST_CASE("several dampers: kinds that nobody stated are told apart" *
+          doctest::test_suite("long")) {
+  const auto rides = rides_with_weak_rear(half_car(), 5);
+  const InPlantOptions options{.starts = 2, .grade = ""};
+  const InPlantReport report = identify_in_plant(find_law("tanh_kwok"), half_car(), rides, options);
+  REQUIRE(report.kinds.size() == 2);
+  CHECK(report.kinds[0].name == "front");
+  CHECK(report.kinds[1].struts == std::vector<std::size_t>{1});
+  CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    return contains(warning, "the dampers are not alike: those of front, rear");
+  }));
+  CHECK_CLOSE(found_of(report.plant, "mass").value, 690, 0.02, 0);
+  CHECK_CLOSE(found_of(report.damper, "rear.alpha_b").value,
+              found_of(report.damper, "front.alpha_b").value * 2 / 3, 0.1, 0);
+
+  // The plant as it was found says which is which.
+  const InPlantSetup found = as_found(half_car(), report);
+  CHECK(found.kinds.names == std::vector<std::string>{"front", "rear"});
+  CHECK(dampers_named(found, "rear") == std::vector<std::size_t>{1});
+
+  // Where the file says that they are alike, they stay so, and the mass is what that makes it.
+  InPlantSetup alike = half_car();
+  alike.kinds.are_stated = true;
+  const InPlantReport forced = identify_in_plant(find_law("tanh_kwok"), alike, rides, options);
+  REQUIRE(forced.kinds.size() == 1);
+  CHECK(std::abs(found_of(forced.plant, "mass").value - 690) > 0.03 * 690);
+}
+
+TEST_CASE("several dampers: kinds by name, in the file and back") {
+  const auto with_kinds = [](const std::string& kinds) {
+    return half_car("voltage:", "damper_kinds: " + kinds + "\nvoltage:");
+  };
+  const InPlantSetup setup = with_kinds("{weak: rear, strong: [front]}");
+  CHECK(setup.kinds.names == std::vector<std::string>{"weak", "strong"});
+  CHECK(setup.kinds.of == std::vector<std::size_t>{1, 0});
+  const InPlantSetup again = parse_in_plant_setup(format_json(to_json(setup)), "again");
+  CHECK(again.kinds.names == setup.kinds.names);
+  CHECK(again.kinds.of == setup.kinds.of);
+  CHECK(dampers_named(setup, "weak") == dampers_named(setup, "rear"));
+  CHECK(with_kinds("apart").kinds.names == std::vector<std::string>{"front", "rear"});
+  CHECK(with_kinds("alike").kinds.size() == 1);
+  CHECK_FALSE(with_unlike_dampers(with_kinds("alike")));
+  CHECK(with_unlike_dampers(half_car()));
+
+  // Left and right of an axle are alike.
+  const DamperKinds of_car = kinds_by_axle(make_plant(find_machine("full_car", "test"), {}));
+  CHECK(of_car.names == std::vector<std::string>{"front", "rear"});
+  CHECK(of_car.of == std::vector<std::size_t>{0, 0, 1, 1});
+
+  // What cannot be.
+  const auto wrong = [&](const std::string& kinds) {
+    return message_of([&] { with_kinds(kinds); });
+  };
+  CHECK(contains(wrong("other"), "are 'other'; alike, apart, or kinds by name"));
+  CHECK(contains(wrong("{a: front}"), "the damper in rear is of no kind"));
+  CHECK(contains(wrong("{a: [front, rear], b: rear}"), "the damper in rear is of two kinds"));
+  CHECK(contains(wrong("{a: fornt, b: rear}"), "no strut 'fornt'; did you mean 'front'"));
+  CHECK(contains(wrong("{'a/b': front, c: rear}"), "'a/b' is no name for a kind of damper"));
+  CHECK(contains(message_of([&] { require_alike(setup, "this"); }),
+                 "are 2 (weak, strong), and this knows one"));
 }
 
 TEST_CASE("several dampers: a law with a sharp knee, and the same bits on any number of threads" *

@@ -6,6 +6,7 @@
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/machine/worn_damper.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -49,12 +50,17 @@ std::string with_filter(std::string text, const std::string& channel, const std:
   return text.insert(place, ", filter: " + filter);
 }
 
-/// Two rides of a plant, which has these numbers in truth, with spencer1997 in each strut.
+/// Two rides of a plant, which has these numbers in truth, with spencer1997 in each strut; the last
+/// of them weaker by this share.
 std::vector<PlantRecording> rides_of(InPlantSetup plant, const NamedValues& truth, double seconds,
-                                     std::uint64_t seed = 31) {
+                                     std::uint64_t seed = 31, double weaker = 0) {
   plant.unknown.clear();
   plant.known.insert(plant.known.end(), truth.begin(), truth.end());
-  return recordings_of(virtual_campaign(plant, load_parameters("spencer1997"),
+  const auto as_new = std::make_shared<LawModel>(load_parameters("spencer1997"));
+  const WornDamper weak(mounted(as_new, 0), {{&find_wear("force", "test"), -weaker}});
+  std::vector<const DamperModel*> dampers(plant.dampers(), as_new.get());
+  if (weaker > 0) dampers.back() = &weak;
+  return recordings_of(virtual_campaign(plant, dampers,
                                         {.duration = seconds,
                                          .levels = {0, 1},
                                          .road = "iso8608,class=C,speed=20m/s",
@@ -62,6 +68,29 @@ std::vector<PlantRecording> rides_of(InPlantSetup plant, const NamedValues& trut
 }
 std::vector<PlantRecording> spencer_rides(double seconds) {
   return rides_of(unmeasured_car(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}}, seconds);
+}
+
+/// A half car, each of whose tyres has a road of its own.
+InPlantSetup unmeasured_half_car() {
+  return parse_in_plant_setup(
+      "plant: half_car\n"
+      "parameters: {mass: {about: 600 kg, from: 400 kg, to: 1000 kg},\n"
+      "  inertia: {about: 1000 kg*m^2, from: 500 kg*m^2, to: 2500 kg*m^2},\n"
+      "  front_wheel_mass: 40 kg, rear_wheel_mass: 45 kg, front_stiffness: 17 N/mm,\n"
+      "  rear_stiffness: 22 N/mm, front_tyre_stiffness: {about: 150 N/mm},\n"
+      "  rear_tyre_stiffness: {about: 150 N/mm}, front_distance: 1.3 m, rear_distance: 1.5 m}\n"
+      "inputs:\n"
+      "  - {kind: ground, at: front, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: rear, class: C, speed: 20 m/s}\n"
+      "sensors:\n"
+      "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+      "  - {channel: pitch, quantity: velocity, at: pitch}\n"
+      "  - {channel: front, quantity: acceleration, at: front_wheel, noise: 0.05}\n"
+      "  - {channel: rear, quantity: acceleration, at: rear_wheel, noise: 0.05}\n"
+      "  - {channel: level_front, quantity: deflection, at: front, noise: 0.2 mm}\n"
+      "  - {channel: level_rear, quantity: deflection, at: rear, noise: 0.2 mm}\n"
+      "voltage: coil\n",
+      "half.yaml");
 }
 
 }  // namespace
@@ -180,25 +209,7 @@ TEST_CASE("without a road: sensors behind filters, which the plant states or doe
 
 TEST_CASE("without a road: a half car, each of whose tyres has a road of its own" *
           doctest::test_suite("long")) {
-  const InPlantSetup setup = parse_in_plant_setup(
-      "plant: half_car\n"
-      "parameters: {mass: {about: 600 kg, from: 400 kg, to: 1000 kg},\n"
-      "  inertia: {about: 1000 kg*m^2, from: 500 kg*m^2, to: 2500 kg*m^2},\n"
-      "  front_wheel_mass: 40 kg, rear_wheel_mass: 45 kg, front_stiffness: 17 N/mm,\n"
-      "  rear_stiffness: 22 N/mm, front_tyre_stiffness: {about: 150 N/mm},\n"
-      "  rear_tyre_stiffness: {about: 150 N/mm}, front_distance: 1.3 m, rear_distance: 1.5 m}\n"
-      "inputs:\n"
-      "  - {kind: ground, at: front, class: C, speed: 20 m/s}\n"
-      "  - {kind: ground, at: rear, class: C, speed: 20 m/s}\n"
-      "sensors:\n"
-      "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
-      "  - {channel: pitch, quantity: velocity, at: pitch}\n"
-      "  - {channel: front, quantity: acceleration, at: front_wheel, noise: 0.05}\n"
-      "  - {channel: rear, quantity: acceleration, at: rear_wheel, noise: 0.05}\n"
-      "  - {channel: level_front, quantity: deflection, at: front, noise: 0.2 mm}\n"
-      "  - {channel: level_rear, quantity: deflection, at: rear, noise: 0.2 mm}\n"
-      "voltage: coil\n",
-      "half.yaml");
+  const InPlantSetup setup = unmeasured_half_car();
   const NamedValues truth = {{"mass", 690},
                              {"inertia", 1222},
                              {"front_tyre_stiffness", 200e3},
@@ -209,6 +220,7 @@ TEST_CASE("without a road: a half car, each of whose tyres has a road of its own
       identify_in_plant(find_law("tanh_kwok"), setup, rides_of(noisy, truth, 12), {});
   CAPTURE(report.message);
   REQUIRE(report.has_models());
+  CHECK(report.kinds.size() == 1);  // they are alike
   CHECK(report.knowable.confounded.empty());
   REQUIRE(report.plant.size() == truth.size());
   for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -227,6 +239,25 @@ TEST_CASE("without a road: a half car, each of whose tyres has a road of its own
     if (p.name.ends_with("memory")) CHECK(p.high <= 5);
   REQUIRE(report.traces.front().dampers.size() == 2);
   CHECK(report.traces.front().dampers[1].strut == "rear");
+}
+
+TEST_CASE("without a road: dampers that are not alike are told apart unasked" *
+          doctest::test_suite("long")) {
+  const NamedValues truth = {{"mass", 690},
+                             {"inertia", 1222},
+                             {"front_tyre_stiffness", 200e3},
+                             {"rear_tyre_stiffness", 200e3}};
+  InPlantSetup setup = unmeasured_half_car();
+  setup.sensors[1].noise = 5e-3;
+  const InPlantReport report =
+      identify_in_plant(find_law("tanh_kwok"), setup, rides_of(setup, truth, 10, 31, 1.0 / 3), {});
+  REQUIRE(report.kinds.size() == 2);
+  CHECK(contains(report.warnings.back(), "not alike: those of front, rear"));
+  CHECK_CLOSE(report.plant.front().value, 690, 0.08, 0);
+  const auto number = [&](const std::string& name) {
+    return std::ranges::find(report.damper, name, &FittedParameter::name)->value;
+  };
+  CHECK_CLOSE(number("rear.alpha_b"), number("front.alpha_b") * 2 / 3, 0.1, 0);
 }
 
 TEST_CASE("without a road: what cannot be told is refused, with the reason") {

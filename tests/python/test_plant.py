@@ -144,6 +144,22 @@ class InsideAPlant(InFolder):
             self.assertLess(np.std(error), 0.1 * np.std(truths[column]))
             self.assertTrue((half > 0).all())
 
+    def test_two_kinds(self):
+        rig = dict(self.rig(), damper_kinds={"new": "high", "old": "low"})
+        plant = self.folder / "kinds.json"
+        plant.write_text(json.dumps(rig))
+        words = ["--damper", "spencer1997", "--levels", "1", "--duration", "3", "--push", "900", "--sample-rate", "200"]
+        program("bench", "--in", plant, *words, "--wear", "low_force=-0.5", "--output", self.folder / "kinds")
+        ride = self.folder / "kinds" / "ride_1.csv"
+        fit = dashpot.identify_in_plant(ride, rig, "tanh_guo", starts=2)
+        self.assertEqual(list(fit.models), ["new", "old"])
+        self.assertIn("new.", next(iter(fit.parameters)))
+        with self.assertRaisesRegex(ValueError, "are of 2 kinds: .models has new, old"):
+            fit.model
+        seen = dashpot.observe(fit.dampers, ride, fit.plant, force_error=[(20, 0.02)])
+        force, half = seen["low_damper_force"]
+        self.assertTrue((half > 0).all())
+
     def test_wrong_use(self):
         with self.assertRaisesRegex(dashpot.Error, "unknown law|tanh_quok"):
             dashpot.identify_in_plant(self.ride, self.plant, "tanh_quok")

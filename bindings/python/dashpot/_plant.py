@@ -32,7 +32,7 @@ def _plant(given: Plant) -> str:
 
 
 def _dampers(given: Dampers):
-    """One model for all dampers, or one each by the names of their struts."""
+    """One model for all dampers, or one each by the names of their struts or kinds."""
     for model in given.values() if isinstance(given, Mapping) else [given]:
         if not isinstance(model, _core.DamperModel):
             raise TypeError(f"model: is a {type(model).__name__}, not a DamperModel or a dict of them by strut")
@@ -40,16 +40,30 @@ def _dampers(given: Dampers):
 
 
 class PlantFit:
-    """A damper that was identified in its plant.
+    """The dampers that were identified in their plant.
 
-    model: the DamperModel; plant: the plant as it was found, which observe() takes; report: all figures, as
-    `dashpot identify --in --json` prints them of a law.
+    models: a DamperModel of each kind of damper, by the kind's name; where all are alike there is one, "". plant: the
+    plant as it was found, which observe() takes; report: all figures, as `dashpot identify --in --json` prints them
+    of a law.
     """
 
-    def __init__(self, model: _core.DamperModel, report: dict):
-        self.model = model
+    def __init__(self, models: List[_core.DamperModel], report: dict):
         self.plant = report.pop("found")
+        kinds = self.plant.get("damper_kinds")
+        self.models = dict(zip(kinds if isinstance(kinds, dict) else [""], models))
         self.report = report
+
+    @property
+    def model(self) -> _core.DamperModel:
+        """The model of all dampers, where they are alike; raises ValueError where they are not."""
+        if len(self.models) > 1:
+            raise ValueError(f"the dampers are of {len(self.models)} kinds: .models has {', '.join(self.models)}")
+        return self.models[""]
+
+    @property
+    def dampers(self):
+        """What observe() and watch() take: the model of all dampers, or a dict of one for each kind."""
+        return self.models.get("", self.models)
 
     @property
     def parameters(self) -> dict:
@@ -62,7 +76,7 @@ class PlantFit:
         return self.report["advice"]
 
     def __repr__(self) -> str:
-        return f"<dashpot.PlantFit of {self.model.name}>"
+        return f"<dashpot.PlantFit of {next(iter(self.models.values())).name}>"
 
 
 def identify_in_plant(

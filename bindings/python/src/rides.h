@@ -28,14 +28,22 @@ class Rides : public Owner<dashpot_rides, dashpot_rides_free> {
 
 inline py::tuple identify_in_plant(const Rides& rides, const std::string& plant,
                                    const std::string& options, py::object progress) {
-  Model model;
+  constexpr std::size_t kMostDampers = 16;
+  dashpot_model* found[kMostDampers];
+  std::size_t count = 0;
   Text report;
   Watched(std::move(progress)).run([&](const dashpot_monitor* monitor) {
-    return dashpot_identify_in_plant(rides.get(), plant.c_str(), options.c_str(), monitor,
-                                     model.out(), report.out());
+    return dashpot_identify_dampers_in_plant(rides.get(), plant.c_str(), options.c_str(), monitor,
+                                             found, kMostDampers, &count, report.out());
   });
-  model.read_info();
-  return py::make_tuple(std::move(model), report.take());
+  py::list models;
+  for (std::size_t kind = 0; kind < count; ++kind) {
+    Model model;
+    *model.out() = found[kind];
+    model.read_info();
+    models.append(std::move(model));
+  }
+  return py::make_tuple(std::move(models), report.take());
 }
 
 /// The dampers of a plant: one model for all, or one for each strut.

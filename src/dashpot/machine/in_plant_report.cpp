@@ -155,7 +155,8 @@ std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
 
 std::string unlike_found(const InPlantSetup& unlike) {
   return "the dampers are not alike: those of " + join(unlike.kinds.names, ", ") +
-         " were found each with numbers of their own; 'dampers: alike' in the plant's file keeps "
+         " were found each with numbers of their own; 'damper_kinds: alike' in the plant's file "
+         "keeps "
          "them together";
 }
 

@@ -81,10 +81,10 @@ void require_one_damper(const InPlantSetup& setup, const std::string& who) {
 
 void require_alike(const InPlantSetup& setup, const std::string& who) {
   if (setup.kinds.size() > 1)
-    throw Error("plant, dampers",
-                "are of " + std::to_string(setup.kinds.size()) + " kinds (" +
-                    join(setup.kinds.names, ", ") + "), and " + who + " knows one",
-                "leave 'dampers' out: all of them are then alike");
+    throw Error("plant, damper_kinds",
+                "are " + std::to_string(setup.kinds.size()) + " (" + join(setup.kinds.names, ", ") +
+                    "), and " + who + " knows one",
+                "leave 'damper_kinds' out, or 'alike'");
 }
 
 std::vector<std::size_t> dampers_named(const InPlantSetup& setup, const std::string& name) {

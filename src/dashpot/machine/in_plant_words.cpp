@@ -510,7 +510,7 @@ InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& sour
   for (const Value& sensor : reader.required("sensors").items())
     setup.sensors.push_back(read_sensor(sensor, plant));
 
-  if (const Value* kinds = reader.optional("dampers")) setup.kinds = read_kinds(*kinds, plant);
+  if (const Value* kinds = reader.optional("damper_kinds")) setup.kinds = read_kinds(*kinds, plant);
 
   // What drives the damper: a channel or a level, of one unit.
   for (const auto& [key, unit] :
@@ -618,9 +618,9 @@ Value to_json(const InPlantSetup& setup) {
   file.add("inputs", std::move(inputs));
   file.add("sensors", std::move(sensors));
   if (setup.kinds.size() > 1)
-    file.add("dampers", kinds_json(setup.kinds, plant));
+    file.add("damper_kinds", kinds_json(setup.kinds, plant));
   else if (setup.kinds.are_stated)
-    file.add("dampers", "alike");
+    file.add("damper_kinds", "alike");
   if (setup.drive_unit != DriveUnit::None) {
     const std::string key = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current";
     file.add(key, setup.drive.empty() ? Value(setup.level) : Value(setup.drive));
