@@ -598,6 +598,7 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
   constexpr double kLate = 0.1;  // of a sample
   require_setup(setup);
   require_no_follower(setup, "the observer");
+  require_alike(setup, "an observer that runs alone");
   require_steps(options.steps);
   setup.from_rest = true;
   damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
