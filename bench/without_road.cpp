@@ -59,7 +59,8 @@ InPlantSetup true_car(InPlantSetup setup) {
 }
 
 /// A parameter set by its name; or "asymmetric": spencer1997 that resists extension more than
-/// compression, as dampers of cars do; or "smooth": a tanh_guo about as strong.
+/// compression, as dampers of cars do; or "smooth": a tanh_guo about as strong; or "leaping": a
+/// tanh_kwok, likewise, whose force leaps by 60 N at 0 V and by 210 at 2 V.
 std::unique_ptr<LawModel> true_damper(const std::string& name) {
   if (name == "smooth")
     return std::make_unique<LawModel>(
@@ -67,6 +68,14 @@ std::unique_ptr<LawModel> true_damper(const std::string& name) {
         Dependence{.forms = {Form::Linear, Form::Linear, Form::Constant, Form::Constant,
                              Form::Constant, Form::Constant},
                    .coefficients = {{150, 500}, {700, 300}, {20}, {0.05}, {0.02}, {0}}},
+        DriveUnit::Volt, 0);
+  if (name == "leaping")
+    return std::make_unique<LawModel>(
+        find_law("tanh_kwok"),
+        Dependence{
+            .forms = {Form::Linear, Form::Linear, Form::Quadratic, Form::Constant, Form::Linear,
+                      Form::Constant},
+            .coefficients = {{700, 300}, {5000, -400}, {150, 500, -20}, {40}, {0.2, -0.05}, {0}}},
         DriveUnit::Volt, 0);
   if (name != "asymmetric") return std::make_unique<LawModel>(load_parameters(name));
   const LawModel alike = load_parameters("spencer1997");

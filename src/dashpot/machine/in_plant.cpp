@@ -14,6 +14,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/beside_noise.h"
+#include "dashpot/machine/force_leap.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/plant_advice.h"
@@ -434,19 +435,22 @@ void add_road_delays(const InPlantSetup& asked, const InPlantSetup& found, InPla
 }
 
 /// Whether the sensitivities at the end of a search, by short differences, are those of leaps: of a
-/// law that leaps where the plant rests, or of an integrator whose step is too long. Over longer
-/// ones the residuals change far less than these say.
+/// law that leaps where the plant rests, or of an integrator whose step is too long. Over a
+/// standard deviation of one of the first `count` unknowns, or 1 % where that is less, the
+/// residuals change far less than these say.
 bool goes_by_leaps(const LeastSquaresProblem& problem, const LeastSquaresReport& solved,
-                   int threads) {
-  constexpr double kLonger = 1e-4, kFarLess = 0.25;
+                   const Covariance& spread, std::size_t count, int threads) {
+  constexpr double kShortest = 1e-4, kLongest = 1e-2, kFarLess = 0.25;
   const std::size_t n = solved.x.size();
   std::vector<double> at(problem.residuals);
   if (!problem.residual(solved.x, at)) return true;
   std::atomic<bool> leaps = false;
-  parallel_for(n, threads, [&](std::size_t k) {
+  parallel_for(count, threads, [&](std::size_t k) {
     if (!(problem.lower[k] < problem.upper[k])) return;
     std::vector<double> x = solved.x, r(problem.residuals);
-    const double length = kLonger * std::max(1.0, std::abs(x[k]));
+    const double deviation = std::sqrt(std::max(spread.matrix[k * (n + 1)], 0.0));
+    const double size = std::max(1.0, std::abs(x[k])),
+                 length = std::clamp(deviation, kShortest * size, kLongest * size);
     x[k] += x[k] + length <= problem.upper[k] ? length : -length;
     double expected = 0, change = 0;
     for (const std::vector<double>& part : solved.part_matrices)
@@ -455,6 +459,26 @@ bool goes_by_leaps(const LeastSquaresProblem& problem, const LeastSquaresReport&
     for (std::size_t i = 0; i < r.size(); ++i) change += (r[i] - at[i]) * (r[i] - at[i]);
     if (change < kFarLess * expected) leaps = true;
   });
+  return leaps;
+}
+
+/// The same where it is to be feared, with a warning of what it comes from.
+bool warn_of_leaps(const PlantResiduals& residuals, const PlantCases& cases,
+                   const LeastSquaresReport& solved, const Covariance& spread, int threads,
+                   InPlantReport& report) {
+  const auto [low, high] = drive_range(cases);
+  const bool is_coarse = report.step_error > kStepShare;
+  const auto leaps_somewhere = [&](const LawModel& law) { return leaps_at_rest(law, low, high); };
+  if (!is_coarse && std::ranges::none_of(residuals.laws(solved.x), leaps_somewhere)) return false;
+  const bool leaps = goes_by_leaps(residuals.problem(0, threads), solved, spread,
+                                   residuals.first_state(), threads);
+  const std::string cannot = "how certain its numbers are cannot be told";
+  if (is_coarse)
+    report.warnings.push_back(
+        "the integrator's step changes a sensor by " + format_number(100 * report.step_error, 2) +
+        " % of its error: the law is too sharp for it" + (leaps ? ", and " + cannot : ""));
+  else if (leaps)
+    report.warnings.push_back("the law leaps where the damper comes to rest, and " + cannot);
   return leaps;
 }
 
@@ -635,14 +659,6 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                                 beside, report);
     report.iterations += solved.iterations;
   }
-  bool leaps = false;
-  if (is_finite() && report.step_error > kStepShare) {
-    leaps = goes_by_leaps(residuals.problem(0, options.threads), solved, options.threads);
-    report.warnings.push_back("the integrator's step changes a sensor by " +
-                              format_number(100 * report.step_error, 2) +
-                              " % of its error: the law is too sharp for it" +
-                              (leaps ? ", and how certain its numbers are cannot be told" : ""));
-  }
   report.steps = cases.steps;
   report.method = cases.method;
   report.message = solved.message;
@@ -659,6 +675,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
 
   // Intervals: correlated residuals count as one, and sensors differ.
   const Covariance spread = beside.spread.n > 0 ? beside.spread : residuals.covariance_at(solved);
+  const bool leaps = warn_of_leaps(residuals, cases, solved, spread, options.threads, report);
   add_parameters(residuals, solved.x, spread, report, reach_of(beside));
   if (!beside.noise.empty()) add_noise(setup, beside.found, report);
   add_warnings(residuals, spread, report);

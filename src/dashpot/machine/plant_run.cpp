@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dashpot/error.h"
+#include "dashpot/machine/force_leap.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/plants/linear.h"
 
@@ -184,14 +185,17 @@ void DrivenPlant::accelerations(const PlantDriving& driving, std::size_t point, 
   }
 }
 
-/// The rates of all states at a point in time, and the forces of the dampers.
+/// The rates of all states at a point in time, and the forces of the dampers, which go over
+/// their leaps in a line.
 void DrivenPlant::rates(PlacedDampers dampers, const PlantDriving& driving, std::size_t point,
-                        const double* state, double* out, Forces& forces) const {
+                        const double* state, double* out, Forces& forces,
+                        std::span<const ForceLeap> leaps) const {
   std::size_t first = 2 * size_;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
     const std::size_t own = dampers[d]->state_size();
-    forces[d] = dampers[d]->flow(damper_input(dampers_[d], driving, point, state),
-                                 {state + first, own}, {out + first, own});
+    const DamperInput at = damper_input(dampers_[d], driving, point, state);
+    forces[d] = dampers[d]->flow(at, {state + first, own}, {out + first, own}) -
+                leaps[d].beyond_line(at, {state + first, own});
     first += own;
   }
   std::copy_n(state + size_, size_, out);
@@ -280,6 +284,18 @@ bool DrivenPlant::run(PlacedDampers dampers, const PlantDriving& driving, std::s
   return run_under_straight_force(dampers, driving, samples, sensors, state, shown, beside);
 }
 
+std::vector<ForceLeap> DrivenPlant::leaps_of(PlacedDampers dampers,
+                                             const PlantDriving& driving) const {
+  const auto [low, high] = std::ranges::minmax(driving.current);
+  std::vector<ForceLeap> leaps;
+  for (std::size_t d = 0; d < dampers_.size(); ++d) {
+    const DamperPlace& place = dampers_[d];
+    leaps.emplace_back(*dampers[d], low, high, driving.sample_time,
+                       along(place.row, place.by_force.data()));
+  }
+  return leaps;
+}
+
 bool DrivenPlant::run_by_runge_kutta(PlacedDampers dampers, const PlantDriving& driving,
                                      std::size_t samples, std::span<const PlantSensorPlace> sensors,
                                      std::span<double> state,
@@ -296,19 +312,20 @@ bool DrivenPlant::run_by_runge_kutta(PlacedDampers dampers, const PlantDriving& 
   };
 
   ComesBack comes_back(beside.comes_back_to, shown);
+  const std::vector<ForceLeap> leaps = leaps_of(dampers, driving);
 
   // The inputs are known at the start, middle and end of every step.
   for (std::size_t point = 0, step = 0;; point += 2, ++step) {
-    rates(dampers, driving, point, state.data(), first.data(), forces);
+    rates(dampers, driving, point, state.data(), first.data(), forces, leaps);
     if (step % driving.steps == 0) {
       const std::size_t sample = step / driving.steps;
       if (!show(driving, sample, sensors, state.data(), first.data() + size_, forces.data(), shown))
         return false;
       if (sample + 1 == samples || comes_back.at(sample)) return true;
     }
-    rates(dampers, driving, point + 1, moved(first, h / 2), second.data(), on_the_way);
-    rates(dampers, driving, point + 1, moved(second, h / 2), third.data(), on_the_way);
-    rates(dampers, driving, point + 2, moved(third, h), fourth.data(), on_the_way);
+    rates(dampers, driving, point + 1, moved(first, h / 2), second.data(), on_the_way, leaps);
+    rates(dampers, driving, point + 1, moved(second, h / 2), third.data(), on_the_way, leaps);
+    rates(dampers, driving, point + 2, moved(third, h), fourth.data(), on_the_way, leaps);
     for (std::size_t k = 0; k < count; ++k)
       state[k] += h / 6 * (first[k] + 2 * (second[k] + third[k]) + fourth[k]);
   }

@@ -15,6 +15,8 @@ namespace dashpot {
 // A linear plant with a damper in each of its struts, run under measured inputs, several steps per
 // sample. What is not linear in it are the dampers alone.
 
+class ForceLeap;
+
 /// What moves a plant from outside.
 enum class PlantInput {
   Force,              ///< N, on a coordinate
@@ -169,7 +171,10 @@ class DrivenPlant {
             const double* acceleration, const double* forces,
             std::vector<std::vector<double>>& shown) const;
   void rates(PlacedDampers dampers, const PlantDriving& driving, std::size_t point,
-             const double* state, double* out, Forces& forces) const;
+             const double* state, double* out, Forces& forces,
+             std::span<const ForceLeap> leaps) const;
+  /// Of each damper.
+  std::vector<ForceLeap> leaps_of(PlacedDampers dampers, const PlantDriving& driving) const;
   DamperInput damper_input(const DamperPlace& place, const PlantDriving& driving, std::size_t point,
                            const double* state) const;
 
