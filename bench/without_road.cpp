@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
@@ -17,6 +20,8 @@
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/numerics/constants.h"
+#include "dashpot/suspension/ground/road_profile.h"
 
 using namespace dashpot;
 
@@ -88,6 +93,10 @@ std::unique_ptr<LawModel> true_damper(const std::string& name) {
                                     alike.lag_rate());
 }
 
+std::string road_of(const std::string& road_class) {
+  return "iso8608,class=" + road_class + ",speed=20m/s";
+}
+
 PlantRecording as_recording(const VirtualRide& ride) {
   return {.name = ride.recorded.name,
           .sample_time = ride.recorded.sample_time,
@@ -95,13 +104,54 @@ PlantRecording as_recording(const VirtualRide& ride) {
           .channels = ride.recorded.channels};
 }
 
+/// Two tracks of class C whose coherence is exp(-2 pi n width), which no isotropic surface of this
+/// spectrum has, as a file.
+void write_tracks(const std::string& path, double length, double width, std::uint64_t seed) {
+  constexpr double kLeast = 0.011, kGreatest = 2.83, kSpacing = 0.05;
+  constexpr int kWaves = 1000;
+  constexpr double kStep = (kGreatest - kLeast) / kWaves;
+  Random random(seed);
+  std::vector<RoadWave> left, right;
+  for (int k = 0; k < kWaves; ++k) {
+    const double n = kLeast + kStep * (k + random.uniform()),
+                 amplitude = wave_amplitude(road_roughness('C'), n, kStep),
+                 shared = std::exp(-kTurn * n * width);
+    left.push_back({amplitude, n, random.uniform(0, kTurn)});
+    right.push_back({shared * amplitude, n, left.back().phase});
+    right.push_back({std::sqrt(1 - shared * shared) * amplitude, n, random.uniform(0, kTurn)});
+  }
+  std::string text = "distance [m],left [m],distance [m],right [m]\n";
+  for (double s = 0; s < length; s += kSpacing)
+    text += fmt::format("{0:.9g},{1:.9g},{0:.9g},{2:.9g}\n", s, height_at(left, s),
+                        height_at(right, s));
+  std::ofstream(path) << text;
+}
+
+/// Rides at each level on such tracks, so far apart.
+std::vector<PlantRecording> exponential_rides(const InPlantSetup& truth, const DamperModel& damper,
+                                              double width, double seconds, std::uint64_t seed) {
+  constexpr double kSpeed = 20;  // m/s
+  const std::string path =
+      std::filesystem::temp_directory_path() / fmt::format("tracks_{}.csv", seed);
+  std::vector<PlantRecording> recordings;
+  for (const double level : kLevels) {
+    const std::uint64_t own = seed + 1000 * recordings.size();
+    write_tracks(path, kSpeed * seconds + 1, width, own);
+    const VirtualCampaignOptions options{.duration = seconds,
+                                         .levels = {level},
+                                         .road = "measured,file=" + path + ",speed=20m/s",
+                                         .seed = own};
+    recordings.push_back(as_recording(virtual_campaign(truth, damper, options).front()));
+    recordings.back().name = "ride_" + std::to_string(recordings.size());
+  }
+  std::filesystem::remove(path);
+  return recordings;
+}
+
 std::vector<PlantRecording> rides(const InPlantSetup& truth, const DamperModel& damper,
-                                  const std::string& road_class, double seconds,
-                                  std::uint64_t seed) {
-  const VirtualCampaignOptions options{.duration = seconds,
-                                       .levels = kLevels,
-                                       .road = "iso8608,class=" + road_class + ",speed=20m/s",
-                                       .seed = seed};
+                                  const std::string& road, double seconds, std::uint64_t seed) {
+  const VirtualCampaignOptions options{
+      .duration = seconds, .levels = kLevels, .road = road, .seed = seed};
   std::vector<PlantRecording> recordings;
   for (const VirtualRide& ride : virtual_campaign(truth, damper, options))
     recordings.push_back(as_recording(ride));
@@ -197,7 +247,7 @@ void run_unmeasured(const std::string& truth, const std::string& road_class, dou
                     const std::vector<std::string>& laws) {
   const std::unique_ptr<LawModel> damper = true_damper(truth);
   const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
-  const auto recordings = rides(true_car(setup), *damper, road_class, seconds / 3, 1);
+  const auto recordings = rides(true_car(setup), *damper, road_of(road_class), seconds / 3, 1);
   for (const std::string& law : laws) {
     const InPlantReport report =
         identify_in_plant(find_law(law), setup, recordings, told_options());
@@ -217,7 +267,7 @@ void run_named(const std::string& truth, const std::string& road_class, double s
                std::uint64_t seed, const std::vector<std::string>& laws) {
   const std::unique_ptr<LawModel> damper = true_damper(truth);
   const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
-  const auto recordings = rides(true_car(setup), *damper, road_class, seconds / 3, seed);
+  const auto recordings = rides(true_car(setup), *damper, road_of(road_class), seconds / 3, seed);
   for (const std::string& law : laws) {
     InPlantOptions options;
     options.asymmetric = true;
@@ -294,11 +344,13 @@ std::vector<LawUnknowns::Coefficient> true_coefficients(const LawModel& damper,
 struct CoverPlan {
   InPlantSetup setup, truth;
   const LawModel& damper;
-  std::string road_class;  ///< on which it truly drives
+  std::string road;  ///< on which it truly drives
   double seconds;
   std::string law;
   int repetitions;
   InPlantOptions options = {};
+  std::uint64_t first_seed = 5000;
+  double exponential = 0;  ///< m; where above 0, its tracks are such in the place of `road`
 };
 
 /// How often their intervals held the plant's and the damper's numbers.
@@ -312,9 +364,12 @@ template <class Counts>
 Covered cover(const CoverPlan& plan, const Counts& counts) {
   Covered covered;
   for (int k = 0; k < plan.repetitions; ++k) {
+    const std::uint64_t seed = plan.first_seed + 7 * static_cast<std::uint64_t>(k);
     const InPlantReport report = identify_in_plant(
         find_law(plan.law), plan.setup,
-        rides(plan.truth, plan.damper, plan.road_class, plan.seconds / 3, 5000 + 7 * k),
+        plan.exponential > 0
+            ? exponential_rides(plan.truth, plan.damper, plan.exponential, plan.seconds / 3, seed)
+            : rides(plan.truth, plan.damper, plan.road, plan.seconds / 3, seed),
         plan.options);
     covered.cpu += report.seconds / plan.repetitions;
 
@@ -326,6 +381,10 @@ Covered cover(const CoverPlan& plan, const Counts& counts) {
           covered.plant.add(p, value);
           fmt::print(stderr, ", {} {}", name, format_number(p.value, 5));
         }
+    for (const FittedParameter& p : report.nuisances)
+      if (p.name == "track width of the road")
+        fmt::print(stderr, ", {} {} ({} ... {})", p.name, format_number(p.value, 3),
+                   format_number(p.low, 3), format_number(p.high, 3));
     fmt::print(stderr, "\n");
     if (plan.repetitions == 1) print_fit(report);
 
@@ -345,9 +404,9 @@ void run_cover(int repetitions, const std::string& truth, const std::string& roa
   const InPlantSetup setup = car(road_class, {"body", "wheel", "level"});
   InPlantOptions options;
   options.asymmetric = truth == "asymmetric";
-  const Covered covered =
-      cover({setup, true_car(setup), *damper, road_class, seconds, law, repetitions, options},
-            [](const auto&) { return true; });
+  const Covered covered = cover(
+      {setup, true_car(setup), *damper, road_of(road_class), seconds, law, repetitions, options},
+      [](const auto&) { return true; });
   fmt::print(
       "{} in a car with {}, class {}, {} s, {} repetitions; {:.1f} s of CPU each, body mass "
       "at worst {:.2f} % off\n",
@@ -386,7 +445,7 @@ void run_covered(int repetitions, const std::string& truth, const std::string& r
   InPlantOptions options;
   options.grade = "";
   const Covered covered =
-      cover({setup, true_setup, *damper, road_class, seconds, law, repetitions, options},
+      cover({setup, true_setup, *damper, road_of(road_class), seconds, law, repetitions, options},
             [](const LawUnknowns::Coefficient& c) { return c.value != 0 && c.name != "V0"; });
   fmt::print(
       "{} in a car with {}, class {} measured with {} mm of noise, {} s, {} repetitions; {:.1f} s "
@@ -413,7 +472,8 @@ void run_sensors(const std::string& truth, const std::string& road_class, double
     std::string row = "| " + join(sensors, ", ") + " | ";
     try {
       const InPlantReport report = identify_in_plant(
-          find_law(law), setup, rides(true_car(setup), *damper, road_class, seconds / 3, 1), {});
+          find_law(law), setup,
+          rides(true_car(setup), *damper, road_of(road_class), seconds / 3, 1), {});
       for (const FittedParameter& p : report.plant)
         row +=
             fmt::format("{} ({} ... {}){} | ", format_number(p.value, 4), format_number(p.low, 4),
@@ -521,10 +581,78 @@ void run_half(int repetitions, const std::string& truth, const std::string& road
   InPlantOptions options;
   options.asymmetric = truth == "asymmetric";
   const Covered covered =
-      cover({setup, true_setup, *damper, true_class, seconds, law, repetitions, options},
+      cover({setup, true_setup, *damper, road_of(true_class), seconds, law, repetitions, options},
             [](const auto&) { return false; });
   fmt::print("{} in a half car with {}, class {}, {} s, {} repetitions; {:.1f} s of CPU each\n",
              law, truth, road_class, seconds, repetitions, covered.cpu);
+  covered.plant.print();
+  covered.plant.print_share();
+}
+
+/// A full car as its user knows it, without those sensors whose names begin so.
+InPlantSetup full_car(const std::vector<std::string>& without) {
+  InPlantSetup setup = parse_in_plant_setup(
+      "plant: full_car\n"
+      "parameters:\n"
+      "  mass: {about: 1300 kg}\n"
+      "  pitch_inertia: {about: 1900 kg*m^2}\n"
+      "  roll_inertia: {about: 600 kg*m^2}\n"
+      "  wheel_mass: 59 kg\n"
+      "  front_stiffness: 35 kN/m\n"
+      "  rear_stiffness: 38 kN/m\n"
+      "  tyre_stiffness: {about: 150 kN/m}\n"
+      "  front_distance: 1.4 m\n"
+      "  rear_distance: 1.7 m\n"
+      "  front_track: 1.5 m\n"
+      "  rear_track: 1.5 m\n"
+      "inputs:\n"
+      "  - {kind: ground, at: front_left, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: front_right, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: rear_left, class: C, speed: 20 m/s}\n"
+      "  - {kind: ground, at: rear_right, class: C, speed: 20 m/s}\n"
+      "sensors:\n"
+      "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
+      "  - {channel: pitch, quantity: velocity, at: pitch, noise: 5e-3}\n"
+      "  - {channel: roll, quantity: velocity, at: roll, noise: 5e-3}\n"
+      "  - {channel: wheel_fl, quantity: acceleration, at: front_left_wheel, noise: 0.05}\n"
+      "  - {channel: wheel_fr, quantity: acceleration, at: front_right_wheel, noise: 0.05}\n"
+      "  - {channel: wheel_rl, quantity: acceleration, at: rear_left_wheel, noise: 0.05}\n"
+      "  - {channel: wheel_rr, quantity: acceleration, at: rear_right_wheel, noise: 0.05}\n"
+      "  - {channel: level_fl, quantity: deflection, at: front_left, noise: 0.2 mm}\n"
+      "  - {channel: level_fr, quantity: deflection, at: front_right, noise: 0.2 mm}\n"
+      "  - {channel: level_rl, quantity: deflection, at: rear_left, noise: 0.2 mm}\n"
+      "  - {channel: level_rr, quantity: deflection, at: rear_right, noise: 0.2 mm}\n"
+      "voltage: coil\n",
+      "full car");
+  for (const std::string& name : without)
+    std::erase_if(setup.sensors,
+                  [&](const PlantSensor& sensor) { return sensor.channel.starts_with(name); });
+  return setup;
+}
+const NamedValues kFullCar = {
+    {"mass", 1500}, {"pitch_inertia", 2160}, {"roll_inertia", 460}, {"tyre_stiffness", 190e3}};
+
+/// full REPETITIONS SEED TRUTH SECONDS LAW TRACKS WITHOUT...: the same of a full car, on tracks of
+/// an isotropic surface so many m apart (0: one and the same), or below 0 on those of
+/// write_tracks().
+void run_full(int repetitions, std::uint64_t seed, const std::string& truth, double seconds,
+              const std::string& law, double tracks, const std::vector<std::string>& without) {
+  const std::unique_ptr<LawModel> damper = true_damper(truth);
+  const InPlantSetup setup = full_car(without);
+  InPlantSetup true_setup = setup;
+  true_setup.unknown.clear();
+  true_setup.known.insert(true_setup.known.end(), kFullCar.begin(), kFullCar.end());
+  InPlantOptions options;
+  options.asymmetric = truth == "asymmetric";
+  const std::string road = road_of("C") + fmt::format(",track_width={}m", std::max(tracks, 0.0));
+  const Covered covered =
+      cover({setup, true_setup, *damper, road, seconds, law, repetitions, options, seed, -tracks},
+            [](const auto&) { return false; });
+  fmt::print(
+      "{} in a full car with {}, tracks {} m apart, {} s, {} repetitions{}; {:.1f} s of CPU "
+      "each\n",
+      law, truth, tracks, seconds, repetitions,
+      without.empty() ? "" : ", without " + join(without, ", "), covered.cpu);
   covered.plant.print();
   covered.plant.print_share();
 }
@@ -547,6 +675,11 @@ bool run_without_road(const std::vector<std::string>& words) {
   }
   if (words.size() == 6 && words[0] == "half") {
     run_half(std::stoi(words[1]), words[2], words[3], std::stod(words[4]), words[5]);
+    return true;
+  }
+  if (words.size() >= 7 && words[0] == "full") {
+    run_full(std::stoi(words[1]), std::stoull(words[2]), words[3], std::stod(words[4]), words[5],
+             std::stod(words[6]), {words.begin() + 7, words.end()});
     return true;
   }
   if (words.size() == 7 && words[0] == "covered") {

@@ -3,5 +3,5 @@
 #include <vector>
 
 /// The figures of docs/in-plant.md of roads that nothing measures: "unmeasured", "cover",
-/// "sensors", "building" and what follows them. False: not one of these.
+/// "sensors", "building", "half", "full" and what follows them. False: not one of these.
 bool run_without_road(const std::vector<std::string>& words);

@@ -97,7 +97,8 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
                  {.force = {{force, 0.02}, {force, 0.3}},
                   .steps = 1,
                   .threads = options.threads,
-                  .monitor = {.on_progress = {}, .stop = options.monitor.stop}});
+                  .monitor = {.on_progress = {}, .stop = options.monitor.stop},
+                  .seeks_faults = false});
 }
 
 ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecording> fitted,
@@ -137,7 +138,8 @@ ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecordin
                                    {.force = {},
                                     .steps = 1,
                                     .threads = options.threads,
-                                    .monitor = {.on_progress = {}, .stop = options.monitor.stop}});
+                                    .monitor = {.on_progress = {}, .stop = options.monitor.stop},
+                                    .seeks_faults = false});
   for (std::size_t r = 0; r < fitted.size(); ++r)
     for (std::size_t k = 0; k < force[r].size(); ++k)
       observed.recordings[r].quantities[0].value[k] += force[r][k];

@@ -556,7 +556,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
     if (!std::ranges::all_of(run.estimates, [](double x) { return std::isfinite(x); }))
       throw Error(recordings[r].name, "the filter diverges",
                   "more of its steps, or a damper and a plant that fit the recording");
-    add_sensor_faults(r, run);
+    if (options.seeks_faults) add_sensor_faults(r, run);
     std::vector<ObservedSensor> sensors = one_ahead(setup, recordings[r], run, width);
     if (!options.causal) {
       smooth(observers[r], run);

@@ -24,6 +24,7 @@ struct ObserveOptions {
   double level = 0.9;
   int threads = 0;
   Monitor monitor;
+  bool seeks_faults = true;  ///< sensors that are held or drift, which takes longer than the rest
 };
 
 /// One quantity over a recording: value - half ... value + half.

@@ -19,6 +19,9 @@ struct ObserverNoise {
   std::vector<ForceError> force;  ///< of a damper's model, their sum; of this size in each damper
   std::vector<double> sensors;    ///< per sensor, white
   double roughness = 0;           ///< m^3, G_d(n0) of a road that nothing measures
+  /// m, how far apart tracks of an isotropic surface are as alike as those of such a road, which a
+  /// filter takes for independent; 0: there are none side by side.
+  double track_width = 0;
 };
 
 /// A damper in a plant, and the domain of its data.

@@ -161,6 +161,15 @@ void add_noise(const std::vector<Complex>& shows, double density, Complex* covar
       covariance[s * m + k] += density * shows[s] * std::conj(shows[k]);
 }
 
+void add_shared_noise(const std::vector<Complex>& one, const std::vector<Complex>& other,
+                      double shared, Complex* covariance) {
+  const std::size_t m = one.size();
+  for (std::size_t s = 0; s < m; ++s)
+    for (std::size_t k = 0; k <= s; ++k)
+      covariance[s * m + k] +=
+          shared * (one[s] * std::conj(other[k]) + other[s] * std::conj(one[k]));
+}
+
 bool factorise(Complex* a, std::size_t n) {
   for (std::size_t j = 0; j < n; ++j) {
     for (std::size_t k = 0; k < j; ++k)

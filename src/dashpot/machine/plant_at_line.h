@@ -58,6 +58,11 @@ class PlantAtLine {
 void add_noise(const std::vector<std::complex<double>>& shows, double density,
                std::complex<double>* covariance);
 
+/// Adds what two noises of a density share, `shared` of it, on top of each by itself.
+void add_shared_noise(const std::vector<std::complex<double>>& one,
+                      const std::vector<std::complex<double>>& other, double shared,
+                      std::complex<double>* covariance);
+
 /// The lower factor of a Hermitian matrix, in place; false where it is not positive definite.
 bool factorise(std::complex<double>* a, std::size_t n);
 

@@ -122,8 +122,8 @@ void smooth(const PlantObserver& observer, ObservedRun& run) {
       adjoint -= row * (gain.dot(adjoint) + sample.innovation[s] / sample.variance[s]);
       const Eigen::VectorXd seen = information * gain;
       const double twice = gain.dot(seen) + 1 / sample.variance[s];
-      information +=
-          twice * row * row.transpose() - row * seen.transpose() - seen * row.transpose();
+      const Eigen::VectorXd lean = 0.5 * twice * row - seen;
+      information += row * lean.transpose() + lean * row.transpose();
       before += sample.variance[s] * gain * gain.transpose();
     }
 

@@ -26,6 +26,8 @@ constexpr double kLongest = 0.01;  // cycle/m, below which a road counts as leve
 /// there: a road that was taken for white up to the sensors' rate would make another plant likely.
 constexpr double kShortest = 2.83;
 
+constexpr double kUsualTrack = 1.5;  // m, where the search for what tracks share begins
+
 /// Two-sided density of the law's error, N^2*s.
 double error_density(const ObserverNoise& noise, double w) {
   double density = 0;
@@ -116,6 +118,8 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
     : setup_(&setup), rides_(&rides), law_(&law), first_(first) {
   constexpr double kMostDelay = 20, kOfSampleRate = 0.4, kOfWaves = 0.9, kMostBeside = 10;
   sample_time_ = rides.front().recording->sample_time;
+  pairs_ = road_pairs(setup);
+  if (!pairs_.empty() && first_.track_width == 0) first_.track_width = kUsualTrack;
 
   // Up to where road and plant are what they are taken for, and the damper's force changes no
   // faster than its spring and dashpot can stand for.
@@ -194,6 +198,13 @@ void SpectralLikelihood::seek_noise(double force) {
     seek(
         "roughness of the road", "m^3", [](ObserverNoise& n) { return &n.roughness; },
         road_roughness('A') / 4, road_roughness('H'));
+
+  // From tracks that differ by less than any sensor shows to those that share nothing.
+  constexpr double kSame = 1e-4, kApart = 100;  // m
+  if (!pairs_.empty())
+    seek(
+        "track width of the road", "m", [](ObserverNoise& n) { return &n.track_width; }, kSame,
+        kApart);
 }
 
 SpectralLikelihood::Ride SpectralLikelihood::ride_of(const RiddenRecording& ridden) const {
@@ -300,6 +311,7 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
   const DrivenPlant plant(make_plant(*setup.model, setup.known), inputs_);
   const auto roads = static_cast<std::size_t>(std::ranges::count_if(
       setup.inputs, [](const PlantInputChannel& one) { return one.road.has_value(); }));
+  std::vector<std::vector<Complex>> by_inputs(setup.inputs.size(), std::vector<Complex>(sensors()));
   const std::size_t n = plant.size(), m = sensors(), lines = ride.end - ride.first,
                     ends = 2 * n + 2 * m + roads;
   spectra.beyond.assign(lines * m, 0);
@@ -333,21 +345,30 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
       covariance[s * m + s] += sample_time_ * uncertain.sensors[s] * uncertain.sensors[s];
     }
 
-    // Inputs: those measured, and roads by their prior and the step between their ends.
+    // Inputs: those measured, and roads by their prior and the step between their ends; then what
+    // roads side by side share.
     std::size_t end = 2 * n + 2 * m;
     for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
       const PlantInputChannel& input = setup.inputs[u];
-      at.of_input(u, shows);
-      add_noise(shows,
+      std::vector<Complex>& by_input = by_inputs[u];
+      at.of_input(u, by_input);
+      add_noise(by_input,
                 input.road ? road_density_over_time(uncertain.roughness, input.road->speed, at.w())
                            : sample_time_ * input.noise * input.noise,
                 covariance);
       for (std::size_t s = 0; s < m; ++s)
         if (input.road)
-          column[s * ends + end] = shows[s] / at.iw();
+          column[s * ends + end] = by_input[s] / at.iw();
         else
-          beyond[s] -= scale * shows[s] * ride.inputs[u][line];
+          beyond[s] -= scale * by_input[s] * ride.inputs[u][line];
       end += input.road.has_value();
+    }
+    for (const auto& [left, right] : pairs_) {
+      const double speed = setup.inputs[left].road->speed;
+      add_shared_noise(by_inputs[left], by_inputs[right],
+                       road_density_over_time(uncertain.roughness, speed, at.w()) *
+                           shared_part(at.w() / kTurn / speed, uncertain.track_width),
+                       covariance);
     }
     put_end_columns(at, n, ends, shows, column);
 

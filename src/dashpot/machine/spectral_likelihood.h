@@ -12,6 +12,7 @@
 #include "dashpot/machine/observer_tables.h"
 #include "dashpot/machine/plant_at_line.h"
 #include "dashpot/machine/plant_recording.h"
+#include "dashpot/machine/road_pairs.h"
 #include "dashpot/monitor.h"
 
 namespace dashpot {
@@ -32,8 +33,9 @@ struct RiddenRecording {
 ///   Y = sum of G_F (F - k d - c v) + sum of G_w W + end terms + N,
 ///
 /// normal, with the spectra of the road under each tyre, of sensor noise and of the law's own error
-/// in each damper, none of which knows another (P. Whittle 1953). (With all of the force as an
-/// input it would count as if it did not follow from the road.) The
+/// in each damper, none of which knows another (P. Whittle 1953), but for roads side by side: these
+/// share what tracks of an isotropic surface do, so far apart as is found. (With all of the force
+/// as an input it would count as if it did not follow from the road.) The
 /// end terms, polynomials in i w over the plant's denominator (Pintelon and Schoukens, System
 /// Identification, 2012, chapter 6), stand for the states at both ends; they are eliminated.
 /// Delays are exact.
@@ -119,6 +121,7 @@ class SpectralLikelihood final : public InPlantUnknowns {
   std::vector<double> plant_;  ///< sizes
   double sample_time_, highest_;
   std::vector<PlantInputPlace> inputs_;
+  std::vector<RoadPair> pairs_;
   std::vector<std::size_t> delays_;                     ///< sensors whose delay is an unknown
   std::size_t first_delay_, first_noise_, first_more_;  ///< places among the unknowns
   StandIn more_ = {};                                   ///< sizes of what stands beside the law

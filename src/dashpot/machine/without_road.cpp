@@ -16,6 +16,7 @@
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_of_matrices.h"
 #include "dashpot/machine/plant_start.h"
+#include "dashpot/machine/road_pairs.h"
 #include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/spectral_likelihood.h"
 #include "dashpot/numerics/distributions.h"
@@ -41,15 +42,6 @@ bool knows_a_force(const InPlantSetup& setup) {
   });
 }
 
-/// Whether roads that nothing measures lie side by side.
-bool has_unmeasured_tracks(const InPlantSetup& setup) {
-  const Plant plant = make_plant(*setup.model, setup.known);
-  bool met[2] = {};
-  for (const PlantInputChannel& input : setup.inputs)
-    if (input.road && input.place.tyre) met[plant.tyres[*input.place.tyre].track] = true;
-  return met[0] && met[1];
-}
-
 void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings) {
   const std::string where = "plant, sensors";
   if (setup.sensors.size() < 2)
@@ -57,11 +49,7 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
                 "there is one, and nothing measures the road: what one sensor shows may come of "
                 "the road or of the damper",
                 "a second sensor: accelerations of body and wheel, the deflection");
-  if (has_unmeasured_tracks(setup))
-    throw Error("plant, inputs",
-                "nothing measures the roads under left and right, which are alike in part: a fit "
-                "that does not know in which made virtual cars 6 to 8 % too heavy",
-                "a channel with each road's height, or a half_car");
+  road_pairs(setup);  // throws at roads that are neither alone nor two side by side
   if (!knows_a_force(setup))
     throw Error("plant, parameters",
                 "no mass, stiffness or force is known: motions alone tell only their ratios",
@@ -270,7 +258,8 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
     return observe(in_struts(report, found), found, parts,
                    {.force = noise.force,
                     .threads = task.options.threads,
-                    .monitor = {.on_progress = {}, .stop = task.options.monitor.stop}});
+                    .monitor = {.on_progress = {}, .stop = task.options.monitor.stop},
+                    .seeks_faults = false});
   };
   const ObserveReport seen = look(task.fitted);
   std::vector<PlantRecording> held_back;
@@ -511,8 +500,9 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
           fit_along(task, unknowns, size.force, observed, last, point, report);
       if (!report.has_models()) break;
       if (!last) {
-        observed = observe(in_struts(report, found), found, task.fitted,
-                           {.force = point.noise.force, .threads = options.threads});
+        observed = observe(
+            in_struts(report, found), found, task.fitted,
+            {.force = point.noise.force, .threads = options.threads, .seeks_faults = false});
         continue;
       }
       report.force_error = 0;

@@ -228,11 +228,6 @@ void add_wave(std::vector<double>& heights, double spacing, const RoadWave& wave
   for (std::size_t j = 0; k < heights.size(); ++j, ++k) heights[k] += re[j];
 }
 
-double shared_part(double wave_number, double width) {
-  const double x = kTurn * wave_number * width;
-  return std::min(1.0, x * std::cyl_bessel_k(1.0, x));
-}
-
 void require_usable(const RoadOptions& o) {
   if (!(o.spacing > 0 && o.length > 2 * o.spacing))
     throw Error("road",
@@ -283,6 +278,11 @@ double road_density(double roughness, double wave_number) {
 
 double wave_amplitude(double roughness, double wave_number, double step) {
   return std::sqrt(2 * road_density(roughness, wave_number) * step);
+}
+
+double shared_part(double wave_number, double width) {
+  const double x = kTurn * wave_number * width;
+  return std::min(1.0, x * std::cyl_bessel_k(1.0, x));
 }
 
 double height_at(const std::vector<RoadWave>& waves, double distance) {

@@ -48,6 +48,8 @@ struct RoadOptions {
 /// those of an isotropic surface: the part that both share is the coherence 2 pi n t K_1(2 pi n t)
 /// of Kamash and Robson (Vehicle System Dynamics 1978, recalled).
 RoadProfile cosine_road(const RoadOptions& options);
+/// The part of a wave that two such tracks share, from 0 to 1. width: m, above 0.
+double shared_part(double wave_number, double width);
 /// The amplitude of one of its waves.
 double wave_amplitude(double roughness, double wave_number, double step);
 
