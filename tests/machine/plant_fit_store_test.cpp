@@ -86,7 +86,8 @@ TEST_CASE("in plant: an interrupted identification goes on behind its last model
     CHECK(format_json(kept[k].report.kinds.front().model->to_json()) ==
           format_json(without[k].report.kinds.front().model->to_json()));
     CHECK(kept[k].report.method == without[k].report.method);
-    CHECK(kept[k].report.kinds.front().domain.velocity_max == without[k].report.kinds.front().domain.velocity_max);
+    CHECK(kept[k].report.kinds.front().domain.velocity_max ==
+          without[k].report.kinds.front().domain.velocity_max);
     CHECK(has_interval(kept[k].report.plant[0]) == has_interval(without[k].report.plant[0]));
     REQUIRE(kept[k].report.traces.size() == 1);
     CHECK(kept[k].report.traces[0].modelled == without[k].report.traces[0].modelled);

@@ -63,9 +63,12 @@ FoundOnTracks found_on_tracks(double width) {
     std::vector<DamperInput>& motion = ridden.motions.emplace_back();
     for (std::size_t k = 0; k < way.size(); ++k) motion.push_back({way[k], speed[k], 1});
   }
-  const LawUnknowns law(damper.law(),
-                        {.force = 1000, .stroke = 0.01, .speed = 0.2, .drive = {1, 1, false, 1}},
-                        DriveUnit::Volt, OffsetMode::Record);
+  const DamperUnknowns law(
+      {damper.law(),
+       {.force = 1000, .stroke = 0.01, .speed = 0.2, .drive = {1, 1, false, 1}},
+       DriveUnit::Volt,
+       OffsetMode::Record},
+      setup.kinds);
   const ObserverNoise noise{.force = {{50, 0.01}, {50, 0.3}},
                             .sensors = std::vector<double>(5, 0.05),
                             .roughness = 256e-6};
