@@ -76,7 +76,7 @@ FoundOnTracks found_on_tracks(double width) {
   const std::vector<RiddenRecording> rides = {ridden};
   const SpectralLikelihood likelihood(setup, rides, law, plant, noise, 1000);
   const MostLikely found =
-      most_likely(likelihood, likelihood.start(plant, law.of(damper)), 100, 2, {});
+      most_likely(likelihood, likelihood.start(plant, law.of({&damper, 1})), 100, 2, {});
   REQUIRE(found.slopes.finite);
   CHECK(found.converged);
   FoundOnTracks told{
