@@ -8,7 +8,7 @@
 namespace dashpot {
 namespace {
 
-constexpr double kSamplesOfSwing = 11;
+constexpr double kTimesOfSwing = 11;
 constexpr double kBeside = 1e-200;  // m or m/s: so near to 0 that only a leap lies between
 constexpr double kNothing = 1e-6;   // N: no leap
 
@@ -27,24 +27,22 @@ double leap_over_speed(const DamperModel& damper, double drive, std::span<const 
 
 }  // namespace
 
-ForceLeap::ForceLeap(const DamperModel& damper, double low, double high, double sample_time,
-                     double yields)
-    : damper_(&damper), half_sample_(sample_time / 2) {
+ForceLeap::ForceLeap(const DamperModel& damper, double low, double high, double time, double yields)
+    : damper_(&damper), half_time_(time / 2) {
   // At rest the force is leap / (2 reach) stiff, and swings by the root of that over the mass.
-  constexpr double kRadians = 2 * std::numbers::pi / kSamplesOfSwing;  // over a sample
+  constexpr double kRadians = 2 * std::numbers::pi / kTimesOfSwing;  // over that time
   std::vector<double> state(damper.state_size());
   for (const double drive : {low, high}) {
     damper.rest({0, 0, drive}, state);
     const double leap = std::abs(leap_over_stroke(damper, {0, 0, drive}, state));
-    if (leap > kNothing)
-      slow_ = std::max(slow_, leap * yields * sample_time / (kRadians * kRadians));
+    if (leap > kNothing) slow_ = std::max(slow_, leap * yields * time / (kRadians * kRadians));
   }
 }
 
 double ForceLeap::beyond_line(const DamperInput& at, std::span<const double> state) const noexcept {
   const double far = std::abs(at.displacement);
-  if (slow_ == 0 || far > half_sample_ * (std::abs(at.velocity) + slow_)) return 0;
-  const double reach = half_sample_ * std::hypot(at.velocity, slow_);
+  if (slow_ == 0 || far > half_time_ * (std::abs(at.velocity) + slow_)) return 0;
+  const double reach = half_time_ * std::hypot(at.velocity, slow_);
   if (far >= reach || far == 0) return 0;
   const double side = at.displacement > 0 ? 1 : -1;
   return leap_over_stroke(*damper_, at, state) / 2 * (side - at.displacement / reach);

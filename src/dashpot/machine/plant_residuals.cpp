@@ -65,7 +65,8 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
                    .method = method,
                    .value = {},
                    .rate = {},
-                   .current = {}};
+                   .current = {},
+                   .leap_time = recording.sample_time};
 
     // The part that is fitted: nobody knows what filters held before the first sample.
     double skip = setup.skip;

@@ -290,7 +290,7 @@ std::vector<ForceLeap> DrivenPlant::leaps_of(PlacedDampers dampers,
   std::vector<ForceLeap> leaps;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
     const DamperPlace& place = dampers_[d];
-    leaps.emplace_back(*dampers[d], low, high, driving.sample_time,
+    leaps.emplace_back(*dampers[d], low, high, driving.leap_time,
                        along(place.row, place.by_force.data()));
   }
   return leaps;

@@ -80,6 +80,8 @@ struct PlantDriving {
   PlantMethod method = PlantMethod::RungeKutta;
   std::vector<std::vector<double>> value, rate;  ///< per input, per point
   std::vector<double> current;                   ///< A or V, per point
+  /// s, by Runge-Kutta: in which a force goes over its leap (force_leap.h); 0: at once.
+  double leap_time = 0;
 
   /// Points per sample: Runge-Kutta asks in the middle of each step too.
   std::size_t stride() const { return points_per_sample(steps, method); }
