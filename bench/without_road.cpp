@@ -359,6 +359,11 @@ struct Covered {
   double cpu = 0;  ///< s of each
 };
 
+std::string found_words(const FittedParameter& p) {
+  return fmt::format("{} {} ({} ... {})", p.name, format_number(p.value, 5),
+                     format_number(p.low, 5), format_number(p.high, 5));
+}
+
 /// Counts those coefficients of the damper for which `counts` holds.
 template <class Counts>
 Covered cover(const CoverPlan& plan, const Counts& counts) {
@@ -379,12 +384,10 @@ Covered cover(const CoverPlan& plan, const Counts& counts) {
       for (const auto& [name, value] : plan.truth.known)
         if (p.name == name) {
           covered.plant.add(p, value);
-          fmt::print(stderr, ", {} {}", name, format_number(p.value, 5));
+          fmt::print(stderr, ", {}", found_words(p));
         }
     for (const FittedParameter& p : report.nuisances)
-      if (p.name == "track width of the road")
-        fmt::print(stderr, ", {} {} ({} ... {})", p.name, format_number(p.value, 3),
-                   format_number(p.low, 3), format_number(p.high, 3));
+      if (p.name == "track width of the road") fmt::print(stderr, ", {}", found_words(p));
     fmt::print(stderr, "\n");
     if (plan.repetitions == 1) print_fit(report);
 

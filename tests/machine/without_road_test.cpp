@@ -50,23 +50,26 @@ std::string with_filter(std::string text, const std::string& channel, const std:
   return text.insert(place, ", filter: " + filter);
 }
 
-/// Two rides of a plant, which has these numbers in truth, with spencer1997 in each strut; the last
-/// of them weaker by this share.
-std::vector<PlantRecording> rides_of(InPlantSetup plant, const NamedValues& truth,
-                                     VirtualCampaignOptions options, double weaker = 0) {
+/// The plant with these numbers in the place of those that are unknown.
+InPlantSetup truly(InPlantSetup plant, const NamedValues& truth) {
   plant.unknown.clear();
   plant.known.insert(plant.known.end(), truth.begin(), truth.end());
-  options.levels = {0, 1};
-  if (options.road.empty()) options.road = "iso8608,class=C,speed=20m/s";
+  return plant;
+}
+
+/// Two rides of a plant, which has these numbers in truth, with spencer1997 in each strut; the last
+/// of them weaker by this share.
+std::vector<PlantRecording> rides_of(const InPlantSetup& plant, const NamedValues& truth,
+                                     double seconds, std::uint64_t seed = 31, double weaker = 0) {
   const auto as_new = std::make_shared<LawModel>(load_parameters("spencer1997"));
   const WornDamper weak(mounted(as_new, 0), {{&find_wear("force", "test"), -weaker}});
   std::vector<const DamperModel*> dampers(plant.dampers(), as_new.get());
   if (weaker > 0) dampers.back() = &weak;
-  return recordings_of(virtual_campaign(plant, dampers, options));
-}
-std::vector<PlantRecording> rides_of(const InPlantSetup& plant, const NamedValues& truth,
-                                     double seconds, std::uint64_t seed = 31) {
-  return rides_of(plant, truth, {.duration = seconds, .levels = {}, .road = "", .seed = seed});
+  return recordings_of(virtual_campaign(truly(plant, truth), dampers,
+                                        {.duration = seconds,
+                                         .levels = {0, 1},
+                                         .road = "iso8608,class=C,speed=20m/s",
+                                         .seed = seed}));
 }
 std::vector<PlantRecording> spencer_rides(double seconds) {
   return rides_of(unmeasured_car(), {{"sprung_mass", 387}, {"tyre_stiffness", 295200}}, seconds);
@@ -251,7 +254,7 @@ TEST_CASE("without a road: a full car, whose left and right roads share what nob
       "  roll_inertia: {about: 600 kg*m^2}, wheel_mass: 59 kg, front_stiffness: 35 kN/m,\n"
       "  rear_stiffness: 38 kN/m, tyre_stiffness: {about: 150 kN/m}, front_distance: 1.4 m,\n"
       "  rear_distance: 1.7 m, front_track: 1.5 m, rear_track: 1.5 m}\n"
-      "voltage: coil\nheld_back: 0\nsensors:\n"
+      "voltage: 1 V\nheld_back: 0\nsensors:\n"
       "  - {channel: body, quantity: acceleration, at: body, noise: 0.05}\n"
       "  - {channel: pitch, quantity: velocity, at: pitch, noise: 5e-3}\n"
       "  - {channel: roll, quantity: velocity, at: roll, noise: 5e-3}\n";
@@ -265,19 +268,19 @@ TEST_CASE("without a road: a full car, whose left and right roads share what nob
   const InPlantSetup setup = parse_in_plant_setup(text + inputs, "full.yaml");
   const NamedValues truth = {
       {"mass", 1500}, {"pitch_inertia", 2160}, {"roll_inertia", 460}, {"tyre_stiffness", 190e3}};
-  const auto rides = rides_of(setup, truth,
-                              {.duration = 6,
-                               .sample_rate = 200,
-                               .levels = {},
-                               .road = "iso8608,class=C,speed=20m/s,track_width=1.5"});
-  const InPlantReport report = identify_in_plant(find_law("tanh_kwok"), setup, rides, {});
+  const LawModel damper =
+      LawModel::constant(find_law("tanh_guo"), std::vector<double>{400, 1500, 20, 0.05, 0.02, 0});
+  const auto recordings = recordings_of(virtual_campaign(
+      truly(setup, truth), damper,
+      {.duration = 8, .levels = {1}, .road = "iso8608,class=C,speed=20m/s,track_width=1.5"}));
+  const InPlantReport report = identify_in_plant(find_law("tanh_guo"), setup, recordings, {});
   CAPTURE(report.message);
   REQUIRE(report.has_models());
   CHECK(report.kinds.size() == 1);
   CHECK(report.knowable.confounded.empty());
   for (std::size_t k = 0; k < truth.size(); ++k) {
     CAPTURE(truth[k].first);
-    CHECK_CLOSE(report.plant[k].value, truth[k].second, 0.15, 0);
+    CHECK_CLOSE(report.plant[k].value, truth[k].second, 0.05, 0);
     CHECK(report.plant[k].low < truth[k].second);
     CHECK(report.plant[k].high > truth[k].second);
   }
@@ -297,9 +300,8 @@ TEST_CASE("without a road: dampers that are not alike are told apart unasked" *
                              {"rear_tyre_stiffness", 200e3}};
   InPlantSetup setup = unmeasured_half_car();
   setup.sensors[1].noise = 5e-3;
-  const InPlantReport report = identify_in_plant(
-      find_law("tanh_kwok"), setup,
-      rides_of(setup, truth, {.duration = 10, .levels = {}, .road = "", .seed = 31}, 1.0 / 3), {});
+  const InPlantReport report =
+      identify_in_plant(find_law("tanh_kwok"), setup, rides_of(setup, truth, 10, 31, 1.0 / 3), {});
   REQUIRE(report.kinds.size() == 2);
   CHECK(contains(report.warnings.back(), "not alike: those of front, rear"));
   CHECK_CLOSE(report.plant.front().value, 690, 0.08, 0);
