@@ -190,8 +190,7 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   std::string where = "\n";
   if (settings.results.report) where += write_document(document, folder, "report");
   console.print(where + "Models   " + models.string() + "/\nPlants   " + plants.string() +
-                "/, as they were found" +
-                (setup.dampers() == 1 ? ", for 'dashpot observe'\n" : "\n"));
+                "/, as they were found, for 'dashpot observe'\n");
   if (console.json) console.print_json(document_json(document));
   return std::isfinite(worst_of(fits.front())) ? kDone : kNotUsable;
 }
