@@ -195,6 +195,12 @@ DamperKinds read_kinds(const Value& value, const Plant& plant) {
     if (kinds.of[strut] == kNone)
       throw Error(value.where(), "the damper in " + plant.struts[strut].name + " is of no kind",
                   "each strut under the name of a kind");
+  for (std::size_t strut = 0; strut < kinds.of.size(); ++strut)
+    if (const std::string& name = plant.struts[strut].name;
+        name != kinds.names[kinds.of[strut]] &&
+        std::ranges::find(kinds.names, name) != kinds.names.end())
+      throw Error(value.where(), "'" + name + "' is a strut and names the kind of another one",
+                  "another name for that kind");
   if (kinds.size() == 1) return {.are_stated = true};
   return kinds;
 }
