@@ -270,10 +270,13 @@ TEST_CASE("without a road: a full car, whose left and right roads share what nob
       {"mass", 1500}, {"pitch_inertia", 2160}, {"roll_inertia", 460}, {"tyre_stiffness", 190e3}};
   const LawModel damper =
       LawModel::constant(find_law("tanh_guo"), std::vector<double>{400, 1500, 20, 0.05, 0.02, 0});
-  const auto recordings = recordings_of(virtual_campaign(
-      truly(setup, truth), damper,
-      {.duration = 8, .levels = {1}, .road = "iso8608,class=C,speed=20m/s,track_width=1.5"}));
-  const InPlantReport report = identify_in_plant(find_law("tanh_guo"), setup, recordings, {});
+  const auto found_in = [&](double seconds, const std::string& tracks) {
+    const auto rides = virtual_campaign(
+        truly(setup, truth), damper,
+        {.duration = seconds, .levels = {1}, .road = "iso8608,class=C,speed=20m/s" + tracks});
+    return identify_in_plant(find_law("tanh_guo"), setup, recordings_of(rides), {});
+  };
+  const InPlantReport report = found_in(8, ",track_width=1.5");
   CAPTURE(report.message);
   REQUIRE(report.has_models());
   CHECK(report.kinds.size() == 1);
@@ -290,6 +293,12 @@ TEST_CASE("without a road: a full car, whose left and right roads share what nob
   CHECK(width->low < 1.5);
   CHECK(width->high > 1.5);
   CHECK(width->high < 3 * width->low);
+
+  // Where left and right meet one road.
+  const InPlantReport none = found_in(3, "");
+  CHECK_FALSE(none.model);
+  CHECK(none.status == FitReport::Status::Failed);
+  CHECK(contains(none.message, "left and right meet one and the same road"));
 }
 
 TEST_CASE("without a road: dampers that are not alike are told apart unasked" *

@@ -414,6 +414,16 @@ InPlantSetup fit_along(const Task& task, const DamperUnknowns& unknowns, double 
               point.law.begin());
   point.noise = likelihood.noise(found.x);
 
+  // Dampers that go alike err alike, which the likelihood does not know.
+  constexpr double kOneRoad = 0.05;  // m
+  if (const double width = point.noise.track_width; width > 0 && width < kOneRoad) {
+    report.model = nullptr;
+    report.message =
+        "left and right meet one and the same road, so that nothing tells how the plant rolls, and "
+        "a fit beside it would be wrong: take a half_car, or a road whose tracks differ";
+    return task.setup;
+  }
+
   // Intervals and what else is to be said.
   if (last) {
     report.status =
