@@ -296,7 +296,7 @@ TEST_CASE("without a road: a full car, whose left and right roads share what nob
 
   // Where left and right meet one road.
   const InPlantReport none = found_in(3, "");
-  CHECK_FALSE(none.model);
+  CHECK_FALSE(none.has_models());
   CHECK(none.status == FitReport::Status::Failed);
   CHECK(contains(none.message, "left and right meet one and the same road"));
 }

@@ -417,7 +417,7 @@ InPlantSetup fit_along(const Task& task, const DamperUnknowns& unknowns, double 
   // Dampers that go alike err alike, which the likelihood does not know.
   constexpr double kOneRoad = 0.05;  // m
   if (const double width = point.noise.track_width; width > 0 && width < kOneRoad) {
-    report.model = nullptr;
+    report.kinds.clear();
     report.message =
         "left and right meet one and the same road, so that nothing tells how the plant rolls, and "
         "a fit beside it would be wrong: take a half_car, or a road whose tracks differ";
