@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "dashpot/base/parallel.h"
@@ -17,6 +16,7 @@
 #include "dashpot/machine/force_leap.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_report.h"
+#include "dashpot/machine/more_unknowns.h"
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_start.h"
@@ -26,7 +26,6 @@
 #include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/without_road.h"
-#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
@@ -482,128 +481,6 @@ bool warn_of_leaps(const PlantResiduals& residuals, const PlantCases& cases,
   return leaps;
 }
 
-/// The setup with the delays that it does not state among the unknowns.
-InPlantSetup with_delays_unknown(InPlantSetup setup) {
-  for (PlantSensor& sensor : setup.sensors) sensor.finds_delay |= sensor.delay == 0;
-  return setup;
-}
-
-/// Residuals at the end of a fit, and what each unknown changes of them.
-struct Linear {
-  using Columns = std::vector<std::vector<double>>;
-  std::vector<double> residuals;
-  Columns columns;
-};
-
-/// With the columns of the unknowns from `first` on alone; nothing where the plant diverges.
-std::optional<Linear> linear_at(const LeastSquaresProblem& problem, const std::vector<double>& x,
-                                std::size_t first = 0) {
-  Linear at{.residuals = std::vector<double>(problem.residuals), .columns = {}};
-  at.columns.assign(x.size() - first, at.residuals);
-  std::vector<double*> places(first, nullptr);
-  for (std::vector<double>& column : at.columns) places.push_back(column.data());
-  if (!problem.jacobian(x, at.residuals, places)) return {};
-  return at;
-}
-
-/// The share of the misfit that would go, to first order, with `more` beside the unknowns of a fit.
-double gain_by(const Linear& fit, const Linear::Columns& more, int threads) {
-  const auto along = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-  };
-  const auto column = [&](std::size_t k) -> const std::vector<double>& {
-    return k < fit.columns.size() ? fit.columns[k] : more[k - fit.columns.size()];
-  };
-
-  // What the best step would take off, with so many of the columns.
-  const auto gain_of = [&](std::size_t n) {
-    std::vector<double> matrix(n * n), slope(n), size(n);
-    parallel_for(n, threads, [&](std::size_t i) {
-      slope[i] = along(column(i), fit.residuals);
-      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] = along(column(i), column(k));
-    });
-    constexpr double kTrace = 1e-9;
-    for (std::size_t i = 0; i < n; ++i) size[i] = std::sqrt(std::max(matrix[i * (n + 1)], 1e-300));
-    for (std::size_t i = 0; i < n; ++i) {
-      slope[i] /= size[i];
-      for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] /= size[i] * size[k];
-      matrix[i * (n + 1)] += kTrace;
-    }
-    return along(slope, solve(matrix, slope));
-  };
-  const std::size_t own = fit.columns.size();
-  return (gain_of(own + more.size()) - gain_of(own)) / along(fit.residuals, fit.residuals);
-}
-
-/// The setup of a fit that has ended with the weights of its sensors as their noise.
-InPlantSetup weighed(const EndedFit& fit) {
-  InPlantSetup setup = fit.setup;
-  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
-    setup.sensors[s].noise = fit.residuals.scale_of(s);
-  return setup;
-}
-
-/// What the delays would change that the plant does not state; nothing where it asks for some, or
-/// states all.
-Linear::Columns columns_of_delays(const EndedFit& fit, const std::vector<double>& residuals,
-                                  int threads) {
-  constexpr double kLater = 1e-4;  // s
-  const InPlantSetup beside = with_delays_unknown(fit.setup);
-  const auto asks = [](const PlantSensor& sensor) { return sensor.finds_delay; };
-  Linear::Columns columns;
-  if (std::ranges::any_of(fit.setup.sensors, asks)) return columns;
-  for (std::size_t s = 0; s < beside.sensors.size(); ++s) {
-    if (!asks(beside.sensors[s])) continue;
-    InPlantSetup late = weighed(fit);
-    late.sensors[s].delay = kLater;
-    const PlantResiduals shifted(late, fit.cases, fit.law, fit.plant_start, fit.scale);
-    columns.push_back(residuals);
-    if (!shifted.problem(0, threads).residual(fit.solved.x, columns.back())) return {};
-    for (std::size_t i = 0; i < residuals.size(); ++i) columns.back()[i] -= residuals[i];
-  }
-  return columns;
-}
-
-/// What the law's numbers would change if they were not the same in all dampers: those of all
-/// kinds but the first.
-Linear::Columns columns_of_kinds(const EndedFit& fit, const InPlantSetup& unlike, int threads) {
-  InPlantSetup setup = weighed(fit);
-  setup.kinds = unlike.kinds;
-  const DamperUnknowns law = fit.law.in_kinds(setup.kinds);
-  const PlantResiduals residuals(setup, fit.cases, law, fit.plant_start, fit.scale);
-
-  // Where all are what they are at the end of the fit.
-  const std::vector<double>& end = fit.solved.x;
-  const std::size_t first = fit.setup.unknown.size(), behind = first + fit.law.size();
-  std::vector<double> x(end.begin(), end.begin() + static_cast<std::ptrdiff_t>(first));
-  std::ranges::copy(law.alike({end.begin() + static_cast<std::ptrdiff_t>(first),
-                               end.begin() + static_cast<std::ptrdiff_t>(behind)}),
-                    std::back_inserter(x));
-  x.insert(x.end(), end.begin() + static_cast<std::ptrdiff_t>(behind), end.end());
-  std::optional<Linear> at = linear_at(residuals.problem(0, threads), x, behind);
-  if (!at) return {};
-  at->columns.resize(law.size() - fit.law.size());
-  return std::move(at->columns);
-}
-
-/// What speaks for a fit once more, with more unknowns.
-struct Doubts {
-  bool is_late = false;     ///< delays that the plant does not state may take off much
-  bool are_unlike = false;  ///< so may dampers that are not alike
-};
-
-/// whole: the problem at its end.
-Doubts doubts_of(const EndedFit& fit, const LeastSquaresProblem& whole, int threads) {
-  constexpr double kLate = 0.1, kUnlike = 0.05;
-  const std::optional<Linear> at = linear_at(whole, fit.solved.x);
-  if (!at) return {};
-  Doubts doubts;
-  doubts.is_late = gain_by(*at, columns_of_delays(fit, at->residuals, threads), threads) > kLate;
-  if (const std::optional<InPlantSetup> unlike = with_unlike_dampers(fit.setup))
-    doubts.are_unlike = gain_by(*at, columns_of_kinds(fit, *unlike, threads), threads) > kUnlike;
-  return doubts;
-}
-
 /// For where sensitivities are leaps, or the model so far off that what is left is no chance.
 void drop_intervals(InPlantReport& report) {
   for (auto* list : {&report.plant, &report.damper, &report.nuisances})
@@ -614,7 +491,7 @@ void drop_intervals(InPlantReport& report) {
 /// The fit of what is measured, from the best of the starts. No model where the plant diverges.
 InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                               const std::vector<PlantRecording>& recordings,
-                              const InPlantOptions& options, Doubts& doubts) {
+                              const InPlantOptions& options, FitDoubts& doubts) {
   const double started = cpu_seconds();
   InPlantReport report;
 
@@ -726,7 +603,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
 /// The same, from more places where the plant diverges from all of the first ones.
 InPlantReport fit_somehow(const Law& law, const InPlantSetup& setup,
                           const std::vector<PlantRecording>& recordings,
-                          const InPlantOptions& options, Doubts& doubts) {
+                          const InPlantOptions& options, FitDoubts& doubts) {
   constexpr int kMoreStarts = 4;
   InPlantReport report = fit_from_starts(law, setup, recordings, options, doubts);
   if (report.has_models()) return report;
@@ -753,7 +630,7 @@ InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
   if (std::ranges::equal(beside.sensors, setup.sensors, {}, &PlantSensor::finds_delay,
                          &PlantSensor::finds_delay))
     return as_stated;
-  Doubts doubts;
+  FitDoubts doubts;
   InPlantReport report = fit_somehow(law, beside, recordings, options, doubts);
   if (!report.has_models() || !(share_left(report) < kClearly * share_left(as_stated)))
     return as_stated;
@@ -765,10 +642,11 @@ InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
 /// where that leaves less; `setup` then says so.
 InPlantReport fit_unlike(const Law& law, InPlantSetup& setup,
                          const std::vector<PlantRecording>& recordings,
-                         const InPlantOptions& options, InPlantReport as_stated, Doubts& doubts) {
+                         const InPlantOptions& options, InPlantReport as_stated,
+                         FitDoubts& doubts) {
   constexpr double kLess = 0.97;
   const InPlantSetup unlike = *with_unlike_dampers(setup);
-  Doubts then;
+  FitDoubts then;
   InPlantReport report = fit_somehow(law, unlike, recordings, options, then);
   if (!report.has_models() || !(share_left(report) < kLess * share_left(as_stated)))
     return as_stated;
@@ -796,7 +674,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   if (unmeasured_road(setup)) return identify_without_road(law, setup, recordings, options);
 
   // As it is stated; where that leaves too much, with dampers that are not alike, beside delays.
-  Doubts doubts;
+  FitDoubts doubts;
   InPlantSetup as_taken = setup;
   InPlantReport report = fit_somehow(law, setup, recordings, options, doubts);
   if (report.has_models() && doubts.are_unlike)

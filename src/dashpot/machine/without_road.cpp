@@ -13,6 +13,7 @@
 #include "dashpot/damper/law_list.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
+#include "dashpot/machine/more_unknowns.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_of_matrices.h"
 #include "dashpot/machine/plant_start.h"
@@ -459,16 +460,10 @@ std::pair<double, double> drive_range(const InPlantSetup& setup,
   return {low, high};
 }
 
-/// What speaks for a fit once more, with more unknowns.
-struct UntoldDoubts {
-  bool is_late = false;     ///< delays that the plant does not state make the recordings likelier
-  bool are_unlike = false;  ///< so do dampers that are not alike
-};
-
 /// All stages of a fit of the setup as it stands.
 InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
                                const std::vector<PlantRecording>& recordings,
-                               const InPlantOptions& options, UntoldDoubts& doubts) {
+                               const InPlantOptions& options, FitDoubts& doubts) {
   constexpr double kWorthATry = 0.01;  // of -log L, for each sample
   InPlantReport report;
   report.road_measured = false;
@@ -536,9 +531,9 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
 InPlantReport fit_unlike_ones(const Law& law, InPlantSetup& setup,
                               const std::vector<PlantRecording>& recordings,
                               const InPlantOptions& options, InPlantReport as_stated,
-                              UntoldDoubts& doubts) {
+                              FitDoubts& doubts) {
   const InPlantSetup unlike = *with_unlike_dampers(setup);
-  UntoldDoubts then;
+  FitDoubts then;
   InPlantReport report = fit_without_road(law, unlike, recordings, options, then);
   if (!report.has_models()) return as_stated;
   report.warnings.push_back(unlike_found(unlike));
@@ -556,7 +551,7 @@ InPlantReport fit_beside_other_delays(const Law& law, const InPlantSetup& setup,
   constexpr double kClearly = 0.7;  // of the force; half the power
   constexpr double kLate = 0.001;   // s
   const InPlantSetup beside = *with_other_delays_unknown(setup);
-  UntoldDoubts then;
+  FitDoubts then;
   InPlantReport report = fit_without_road(law, beside, recordings, options, then);
   double most = 0;
   for (const FittedParameter& p : report.nuisances)
@@ -580,7 +575,7 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   const double started = cpu_seconds();
   require_setup(setup);
   require_tellable(setup, recordings);
-  UntoldDoubts doubts;
+  FitDoubts doubts;
   InPlantSetup as_taken = setup;
   InPlantReport report = fit_without_road(law, setup, recordings, options, doubts);
   if (report.has_models() && doubts.are_unlike)
