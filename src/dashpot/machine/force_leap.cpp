@@ -9,20 +9,21 @@ namespace dashpot {
 namespace {
 
 constexpr double kTimesOfSwing = 11;
-constexpr double kBeside = 1e-200;  // m or m/s: so near to 0 that only a leap lies between
-constexpr double kNothing = 1e-6;   // N: no leap
+constexpr double kNextToZero = 1e-200;  // m or m/s: so near to 0 that only a leap lies between
+constexpr double kNoLeap = 1e-6;        // N: no leap
 
 /// How far the force leaps where the stroke passes 0, N.
 double leap_over_stroke(const DamperModel& damper, DamperInput at, std::span<const double> state) {
-  at.displacement = kBeside;
+  at.displacement = kNextToZero;
   const double above = damper.force(at, state);
-  at.displacement = -kBeside;
+  at.displacement = -kNextToZero;
   return above - damper.force(at, state);
 }
 
 /// Likewise where the speed does, at the middle of the stroke.
 double leap_over_speed(const DamperModel& damper, double drive, std::span<const double> state) {
-  return damper.force({0, kBeside, drive}, state) - damper.force({0, -kBeside, drive}, state);
+  return damper.force({0, kNextToZero, drive}, state) -
+         damper.force({0, -kNextToZero, drive}, state);
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ ForceLeap::ForceLeap(const DamperModel& damper, double low, double high, double 
   for (const double drive : {low, high}) {
     damper.rest({0, 0, drive}, state);
     const double leap = std::abs(leap_over_stroke(damper, {0, 0, drive}, state));
-    if (leap > kNothing) slow_ = std::max(slow_, leap * yields * time / (kRadians * kRadians));
+    if (leap > kNoLeap) slow_ = std::max(slow_, leap * yields * time / (kRadians * kRadians));
   }
 }
 
@@ -52,8 +53,8 @@ bool leaps_at_rest(const DamperModel& damper, double low, double high) {
   std::vector<double> state(damper.state_size());
   for (const double drive : {low, high}) {
     damper.rest({0, 0, drive}, state);
-    if (std::abs(leap_over_stroke(damper, {0, 0, drive}, state)) > kNothing ||
-        std::abs(leap_over_speed(damper, drive, state)) > kNothing)
+    if (std::abs(leap_over_stroke(damper, {0, 0, drive}, state)) > kNoLeap ||
+        std::abs(leap_over_speed(damper, drive, state)) > kNoLeap)
       return true;
   }
   return false;
