@@ -115,6 +115,8 @@ PlacedModels by_struts(const dashpot_placed_model* dampers, size_t count,
   require(dampers, "dampers");
   require_setup(setup);
   const std::vector<std::string> struts = observer_names(setup).struts;
+
+  // Each model goes to the dampers of its name.
   PlacedModels models(struts.size());
   for (size_t k = 0; k < count; ++k) {
     require(dampers[k].strut, "strut");
@@ -130,6 +132,8 @@ PlacedModels by_struts(const dashpot_placed_model* dampers, size_t count,
       models[d] = dampers[k].model;
     }
   }
+
+  // None is left.
   for (size_t d = 0; d < struts.size(); ++d)
     if (!models[d])
       throw Error("dampers", "the damper '" + struts[d] + "' has no model",

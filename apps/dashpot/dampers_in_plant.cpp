@@ -14,6 +14,8 @@ std::vector<std::string> of_each_damper(const std::string& text, const InPlantSe
                                         const std::string& option, const std::string& value) {
   const std::vector<std::string> struts = observer_names(setup).struts;
   if (text.find('=') == std::string::npos) return std::vector<std::string>(struts.size(), text);
+
+  // Each word goes to the dampers of its name.
   std::vector<std::string> values(struts.size());
   for (const std::string& word : split(text, ',')) {
     const std::size_t equals = word.find('=');
@@ -32,6 +34,8 @@ std::vector<std::string> of_each_damper(const std::string& text, const InPlantSe
       values[d] = word.substr(equals + 1);
     }
   }
+
+  // None is left.
   for (std::size_t d = 0; d < struts.size(); ++d)
     if (values[d].empty())
       throw UsageError(

@@ -187,10 +187,12 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
         save_damper(one, damper, setup, files, recordings.front().sample_time, models, console);
       write_file(plants / (one.model + ".json"), format_json(to_json(as_found(setup, one.report))));
     }
+  const bool has_follower = std::ranges::any_of(
+      setup.inputs, [](const PlantInputChannel& one) { return !one.follows.empty(); });
   std::string where = "\n";
   if (settings.results.report) where += write_document(document, folder, "report");
   console.print(where + "Models   " + models.string() + "/\nPlants   " + plants.string() +
-                "/, as they were found, for 'dashpot observe'\n");
+                "/, as they were found" + (has_follower ? "\n" : ", for 'dashpot observe'\n"));
   if (console.json) console.print_json(document_json(document));
   return std::isfinite(worst_of(fits.front())) ? kDone : kNotUsable;
 }

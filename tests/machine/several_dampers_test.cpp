@@ -340,6 +340,7 @@ TEST_CASE("several dampers: kinds by name, in the file and back") {
   CHECK(contains(wrong("{a: front}"), "the damper in rear is of no kind"));
   CHECK(contains(wrong("{a: [front, rear], b: rear}"), "the damper in rear is of two kinds"));
   CHECK(contains(wrong("{a: fornt, b: rear}"), "no strut 'fornt'; did you mean 'front'"));
+  CHECK(contains(wrong("{a: [front, rear], b: []}"), "'b' is a kind without a damper"));
   CHECK(contains(wrong("{rear: front, front: rear}"),
                  "'front' is a strut and names the kind of another one"));
   CHECK(contains(wrong("{'a/b': front, c: rear}"), "'a/b' is no name for a kind of damper"));

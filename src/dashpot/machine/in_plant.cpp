@@ -446,11 +446,15 @@ bool goes_by_leaps(const LeastSquaresProblem& problem, const LeastSquaresReport&
   std::atomic<bool> leaps = false;
   parallel_for(count, threads, [&](std::size_t k) {
     if (!(problem.lower[k] < problem.upper[k])) return;
+
+    // A standard deviation along one number.
     std::vector<double> x = solved.x, r(problem.residuals);
     const double deviation = std::sqrt(std::max(spread.matrix[k * (n + 1)], 0.0));
     const double size = std::max(1.0, std::abs(x[k])),
                  length = std::clamp(deviation, kShortest * size, kLongest * size);
     x[k] += x[k] + length <= problem.upper[k] ? length : -length;
+
+    // What the sensitivities expect there, and what there is.
     double expected = 0, change = 0;
     for (const std::vector<double>& part : solved.part_matrices)
       expected += length * length * part[k * (n + 1)];

@@ -160,7 +160,7 @@ DamperKinds read_kinds(const Value& value, const Plant& plant) {
   if (value.kind() == Value::Kind::String) {
     const std::string word = value.as_string();
     if (word != "alike" && word != "apart")
-      throw Error(value.where(), "are '" + word + "'",
+      throw Error(value.where(), "damper_kinds are '" + word + "'",
                   "alike, apart, or kinds by name, each with its struts: {front: [front_left, "
                   "front_right], rear: [rear_left, rear_right]}");
     kinds.are_stated = true;
@@ -182,7 +182,10 @@ DamperKinds read_kinds(const Value& value, const Plant& plant) {
     if (!is_plain(name))
       throw Error(struts.where(), "'" + name + "' is no name for a kind of damper",
                   "letters, digits, _ and -");
-    for (const std::size_t strut : struts_of_kind(struts, plant)) {
+    const std::vector<std::size_t> own = struts_of_kind(struts, plant);
+    if (own.empty())
+      throw Error(struts.where(), "'" + name + "' is a kind without a damper", "its struts");
+    for (const std::size_t strut : own) {
       if (kinds.of[strut] != kNone)
         throw Error(struts.where(),
                     "the damper in " + plant.struts[strut].name + " is of two kinds",
@@ -191,6 +194,8 @@ DamperKinds read_kinds(const Value& value, const Plant& plant) {
     }
     kinds.names.push_back(name);
   }
+
+  // None is left, and no name says two things.
   for (std::size_t strut = 0; strut < kinds.of.size(); ++strut)
     if (kinds.of[strut] == kNone)
       throw Error(value.where(), "the damper in " + plant.struts[strut].name + " is of no kind",

@@ -350,8 +350,8 @@ std::optional<InPlantSetup> with_other_delays_unknown(InPlantSetup setup) {
   return asks ? std::optional(std::move(setup)) : std::nullopt;
 }
 
-/// By how much -log L would fall for each sample, to first order, if all of a setup's unknowns were
-/// so that has more of them; 0 where there is none. law: the unknowns of the dampers there.
+/// By how much -log L would fall for each sample, to first order, with the unknowns of a setup that
+/// has more of them; 0 where there is none. law: where those of the dampers stand.
 double gain_by_more(const std::optional<InPlantSetup>& beside, const Task& task,
                     const std::vector<RiddenRecording>& rides, const DamperUnknowns& unknowns,
                     const std::vector<double>& law, double force, const Point& point) {
