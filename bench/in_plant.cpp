@@ -295,7 +295,7 @@ void run_car(const std::vector<std::string>& models, const std::string& how) {
   setup.sensors = {{.channel = "body_acceleration", .place = {PlantQuantity::Acceleration, 0}},
                    {.channel = "wheel_acceleration", .place = {PlantQuantity::Acceleration, 1}},
                    {.channel = "suspension_deflection", .place = {PlantQuantity::Deflection, 0}}};
-  setup.drive = "suspension_current";
+  setup.drives = {{.channel = "suspension_current"}};
   setup.drive_unit = DriveUnit::Volt;
   setup.skip = 0.2;
   // Each by itself, but for what learns along a law.

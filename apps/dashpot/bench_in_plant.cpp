@@ -99,11 +99,11 @@ std::string road_of(const InPlantSetup& setup, const PlantBenchSettings& setting
 std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings& campaign,
                               const ParameterSet& damper) {
   const std::vector<double> stated = stated_levels(campaign);
-  if (setup.drive.empty()) {
+  if (setup.drive_channels().empty()) {
     if (!stated.empty())
       throw UsageError("--levels", "no channel of the plant shows the drive",
                        "'current' or 'voltage' of the plant as the name of a channel");
-    return {setup.level};
+    return {setup.drives.front().level};
   }
   if (!stated.empty()) return stated;
   if (!damper.drive_levels.empty()) return damper.drive_levels;

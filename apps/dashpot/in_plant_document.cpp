@@ -133,7 +133,7 @@ DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& se
                         .caption = "Measured and modelled, at the end of the first recording.",
                         .panels = {}};
   const InPlantTrace& trace = report.traces.front();
-  const std::size_t count = trace.current.size();
+  const std::size_t count = trace.dampers.front().force.size();
   const std::size_t first = count > kMostShown ? count - kMostShown : 0;
   if (!report.road_measured) {
     figure.title = "Damper";

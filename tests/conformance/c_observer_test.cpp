@@ -21,6 +21,8 @@ TEST_CASE("exported C of an observer: the library's estimates in double and sing
   for (const char* damper : {"spencer1997", "kwok2006"}) {
     write(damper, example_observer(damper));
     write(std::string("half_car_") + damper, example_half_car_observer(damper));
+    write(std::string("own_drives_") + damper,
+          example_half_car_observer(damper, "{front: coil_front, rear: coil_rear}"));
   }
   check_that_it_runs(folder, kAsTheTests);
 }

@@ -12,11 +12,13 @@ struct ExampleObserver {
   dashpot::ObserverNames names;
 };
 
-inline ExampleObserver example_observer_in(const std::string& plant, const std::string& damper) {
+inline ExampleObserver example_observer_in(const std::string& plant, const std::string& damper,
+                                           const std::string& drive = "coil") {
   using namespace dashpot;
   const ParameterSet set = load_parameter_set(damper);
   const InPlantSetup setup = parse_in_plant_setup(
-      plant + (set.model.drive_unit() == DriveUnit::Volt ? "voltage" : "current") + ": coil\n",
+      plant + (set.model.drive_unit() == DriveUnit::Volt ? "voltage" : "current") + ": " + drive +
+          "\n",
       "car.yaml");
   ObserveOptions options;
   options.force = {{30, 0.01}, {20, 0.5}};
@@ -43,7 +45,8 @@ inline ExampleObserver example_observer(const std::string& damper) {
 }
 
 /// The same of a half car with this damper in both struts, on roads that are measured.
-inline ExampleObserver example_half_car_observer(const std::string& damper) {
+inline ExampleObserver example_half_car_observer(const std::string& damper,
+                                                 const std::string& drive = "coil") {
   return example_observer_in(
       "plant: half_car\n"
       "parameters: {mass: 690 kg, inertia: 1222 kg*m^2, front_wheel_mass: 40 kg,\n"
@@ -59,5 +62,5 @@ inline ExampleObserver example_half_car_observer(const std::string& damper) {
       "  - {channel: az_rear, quantity: acceleration, at: rear_wheel, noise: 0.5}\n"
       "  - {channel: level, quantity: deflection, at: front, noise: 0.2 mm}\n"
       "  - {channel: cell, quantity: damper_force, at: rear, noise: 20 N}\n",
-      damper);
+      damper, drive);
 }

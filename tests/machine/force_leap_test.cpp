@@ -33,7 +33,7 @@ std::vector<std::vector<double>> ride(const DamperModel& damper, double height, 
                        .rate = {{}},
                        .current = {},
                        .leap_time = leap_time};
-  driving.current.assign(driving.points(), 0);
+  driving.current.assign(1, std::vector<double>(driving.points()));
   for (std::size_t k = 0; k < driving.points(); ++k) {
     const double t = kSampleTime / static_cast<double>(driving.stride()) * static_cast<double>(k);
     double value = 0, rate = 0;
@@ -51,7 +51,7 @@ std::vector<std::vector<double>> ride(const DamperModel& damper, double height, 
   const PlantSensorPlace sensors[] = {{PlantQuantity::Deflection, 0, 0},
                                       {PlantQuantity::Acceleration, 0}};
   const DamperModel* const dampers[] = {&damper};
-  std::vector<double> state = plant.at_rest(dampers, 0);
+  std::vector<double> state = plant.at_rest(dampers, driving);
   std::vector<std::vector<double>> shown;
   REQUIRE(plant.run(dampers, driving, driving.samples, sensors, state, shown));
   return shown;

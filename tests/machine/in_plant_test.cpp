@@ -385,7 +385,7 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
   setup.sensors = {{.channel = "body_acceleration", .place = {PlantQuantity::Acceleration, 0}},
                    {.channel = "wheel_acceleration", .place = {PlantQuantity::Acceleration, 1}},
                    {.channel = "suspension_deflection", .place = {PlantQuantity::Deflection, 0}}};
-  setup.drive = "suspension_current";
+  setup.drives = {{.channel = "suspension_current"}};
   setup.drive_unit = DriveUnit::Volt;
   setup.skip = 0.2;
   const InPlantReport report =

@@ -60,7 +60,7 @@ TEST_CASE("a plant's file: numbers in any unit, ranges, sensors and what drives 
             .filter == SensorFilter{100, 5});
   const std::string written = format_json(to_json(setup));
   CHECK(parse_in_plant_setup(written, "written").sensors[1].filter == SensorFilter{30, 2});
-  CHECK(setup.drive == "coil");
+  CHECK(setup.drive_of(0).channel == "coil");
   CHECK(setup.drive_unit == DriveUnit::Ampere);
   CHECK(setup.from_rest);
   CHECK(setup.held_back == 0.3);
@@ -115,8 +115,8 @@ TEST_CASE("a plant in words: known, unknown, ranges, places and levels") {
   CHECK(setup.unknown[0].upper == 500);
   CHECK(setup.sensors[0].channel == "az");
   CHECK(setup.sensors[0].place.coordinate == 1);
-  CHECK(setup.level == 1.5);
-  CHECK(setup.drive.empty());
+  CHECK(setup.drive_of(0).level == 1.5);
+  CHECK(setup.drive_channels().empty());
 
   const auto wrong = [](const std::string& words) {
     return message_of([&] { read_in_plant_setup(words); });

@@ -65,7 +65,7 @@ ObservedRide ride_with(const LawModel& damper, const std::string& file, double s
                        std::uint64_t seed = 3) {
   const InPlantSetup setup = parse_in_plant_setup(file, "car.yaml");
   VirtualCampaignOptions options{.duration = seconds,
-                                 .levels = {setup.level},
+                                 .levels = {setup.drives.front().level},
                                  .road = "iso8608,class=C,speed=20m/s",
                                  .seed = seed};
   const std::vector<VirtualRide> rides = virtual_campaign(setup, damper, options);
@@ -515,7 +515,7 @@ TEST_CASE("a plant's file: a road that nothing measures, and the file that it be
   const InPlantSetup again = parse_in_plant_setup(format_json(to_json(setup)), "again.json");
   CHECK(format_json(to_json(again)) == format_json(to_json(setup)));
   CHECK(again.sensors[2].delay == 0.002);
-  CHECK(again.level == 1);
+  CHECK(again.drives.front().level == 1);
   const auto refusal = [](const std::string& input) {
     std::string text = kObservedCar;
     const std::string old = "{kind: ground, class: C, speed: 20 m/s}";

@@ -43,7 +43,7 @@ InPlantSetup car() {
   setup.sensors = {{.channel = "body", .place = {PlantQuantity::Acceleration, 0}},
                    {.channel = "level", .place = {PlantQuantity::Deflection, 0}}};
   setup.sensors.back().finds_delay = true;
-  setup.drive = "coil";
+  setup.drives = {{.channel = "coil"}};
   return setup;
 }
 

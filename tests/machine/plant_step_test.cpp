@@ -26,7 +26,7 @@ PlantDriving road(double seconds, double sample_time, std::size_t steps, PlantMe
                        .method = method,
                        .value = {{}},
                        .rate = {{}},
-                       .current = {}};
+                       .current = {{}}};
   const double step = sample_time / static_cast<double>(driving.stride());
   for (std::size_t k = 0; k < driving.points(); ++k) {
     const double t = step * static_cast<double>(k);
@@ -40,7 +40,7 @@ PlantDriving road(double seconds, double sample_time, std::size_t steps, PlantMe
     driving.rate[0].push_back(rate);
   }
   for (std::size_t k = 0; k < driving.points(); ++k)
-    driving.current.push_back(drive * (1 + 0.5 * std::sin(20 * step * static_cast<double>(k))));
+    driving.current[0].push_back(drive * (1 + 0.5 * std::sin(20 * step * static_cast<double>(k))));
   return driving;
 }
 
@@ -62,7 +62,7 @@ std::vector<std::vector<double>> ride(const DamperModel& damper, const PlantDriv
                                       {PlantQuantity::Acceleration, 1},
                                       {PlantQuantity::DamperForce, 0}};
   std::vector<double> state(4 + damper.state_size());
-  damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(4));
+  damper.rest({0, 0, driving.current[0].front()}, std::span(state).subspan(4));
   std::vector<std::vector<double>> shown;
   const DamperModel* const dampers[] = {&damper};
   if (!plant.run(dampers, driving, driving.samples, sensors, state, shown)) return {};
@@ -162,7 +162,7 @@ TEST_CASE("plant step: a run beside another one that hardly differs is what it i
                                       {PlantQuantity::DamperForce, 0}};
   const auto run = [&](const DamperModel& damper, const RunBeside& beside) {
     std::vector<double> state(4 + damper.state_size());
-    damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(4));
+    damper.rest({0, 0, driving.current[0].front()}, std::span(state).subspan(4));
     std::vector<std::vector<double>> shown;
     const DamperModel* const dampers[] = {&damper};
     REQUIRE(plant.run(dampers, driving, driving.samples, sensors, state, shown, beside));

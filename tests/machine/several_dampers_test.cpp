@@ -52,7 +52,7 @@ PlantDriving driving_under(const Plant& plant, const GroundMotion& road, double 
                        .value = {},
                        .rate = {},
                        .current = {}};
-  driving.current.assign(driving.points(), voltage);
+  driving.current.assign(plant.struts.size(), std::vector<double>(driving.points(), voltage));
   for (const Tyre& tyre : plant.tyres) {
     driving.value.emplace_back();
     driving.rate.emplace_back();
@@ -164,7 +164,7 @@ TEST_CASE("several dampers: half and full cars go as the suspension's own integr
       const PlantDriving driving =
           driving_under(plant, *road, kSeconds, static_cast<std::size_t>(steps), method, kVoltage);
       const std::vector<const DamperModel*> dampers(plant.struts.size(), damper.get());
-      std::vector<double> state = equations.at_rest(dampers, kVoltage);
+      std::vector<double> state = equations.at_rest(dampers, driving);
       std::vector<std::vector<double>> shown;
       REQUIRE(equations.run(dampers, driving, driving.samples, places, state, shown));
       for (std::size_t s = 0; s < places.size(); ++s) {
@@ -184,7 +184,7 @@ TEST_CASE("several dampers: a run beside another one that hardly differs is what
                                      {PlantQuantity::DamperForce, 0, 1}};
   const auto run = [&](const DamperModel& damper, const RunBeside& beside) {
     const DamperModel* const dampers[] = {&damper, &damper};
-    std::vector<double> state = equations.at_rest(dampers, 1);
+    std::vector<double> state = equations.at_rest(dampers, driving);
     std::vector<std::vector<double>> shown;
     REQUIRE(equations.run(dampers, driving, driving.samples, places, state, shown, beside));
     return shown;
@@ -248,7 +248,7 @@ TEST_CASE("several dampers: one of its own in each strut goes by both methods al
   const DamperModel* const dampers[] = {&front, &rear};
   const auto run = [&](PlantMethod method, std::size_t steps) {
     const PlantDriving driving = driving_under(plant, *wide_road(5), 1, steps, method, 1);
-    std::vector<double> state = equations.at_rest(dampers, 1);
+    std::vector<double> state = equations.at_rest(dampers, driving);
     std::vector<std::vector<double>> shown;
     REQUIRE(equations.run(dampers, driving, driving.samples, places, state, shown));
     return shown;

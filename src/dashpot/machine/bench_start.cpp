@@ -5,6 +5,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/identify.h"
+#include "dashpot/machine/damper_drive.h"
 #include "dashpot/machine/plant_start.h"
 
 namespace dashpot {
@@ -22,14 +23,14 @@ LawModel dashpot_model(double damping) {
 /// strut: of several that in which the damper stands.
 Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recording,
                        const ObservedRecording& observed, const DamperQuantities& damper,
-                       const std::string& strut) {
+                       const DamperDrive& drive, const std::string& strut) {
   const std::string name = recording.name + (strut.empty() ? "" : ", " + strut);
   Record record{.name = name, .source = recording.name, .condition = name};
   record.sample_time = recording.sample_time;
   for (std::size_t k = 0; k < recording.samples; ++k)
     record.time.push_back(recording.sample_time * static_cast<double>(k));
 
-  // What was observed, then the drive: its channel, or one level.
+  // What was observed, then the drive.
   for (const auto& [channel, place] : {std::pair{"force", damper.force},
                                        {"displacement", damper.deflection},
                                        {"velocity", damper.velocity}})
@@ -40,9 +41,7 @@ Record as_bench_record(const InPlantSetup& setup, const PlantRecording& recordin
   if (setup.drive_unit != DriveUnit::None) {
     record.channels.push_back({.name = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current",
                                .unit = to_string(setup.drive_unit),
-                               .samples = setup.drive.empty()
-                                              ? std::vector<double>(recording.samples, setup.level)
-                                              : recording.channel(setup.drive).samples,
+                               .samples = drive_samples(drive, recording),
                                .origin = "as recorded"});
     const auto [low, high] = std::ranges::minmax(record.channels.back().samples);
     if (low == high) record.drive_level = low;
@@ -61,7 +60,7 @@ std::vector<Record> as_bench_records(const InPlantSetup& setup,
   for (std::size_t r = 0; r < fitted.size(); ++r)
     for (std::size_t d = 0; d < dampers; ++d)
       records.push_back(as_bench_record(setup, fitted[r], observed.recordings[r],
-                                        damper_quantities(d, dampers),
+                                        damper_quantities(d, dampers), setup.drive_of(d),
                                         dampers > 1 ? observed.struts[d] : ""));
   return records;
 }
@@ -73,10 +72,10 @@ std::vector<std::vector<DamperInput>> observed_motions(const InPlantSetup& setup
   std::vector<std::vector<DamperInput>> motions(dampers);
   for (std::size_t d = 0; d < dampers; ++d) {
     const auto [force, deflection, velocity] = damper_quantities(d, dampers);
+    const std::vector<double> drive = drive_samples(setup.drive_of(d), recording);
     for (std::size_t k = 0; k < recording.samples; ++k)
-      motions[d].push_back(
-          {observed.quantities[deflection].value[k], observed.quantities[velocity].value[k],
-           setup.drive.empty() ? setup.level : recording.channel(setup.drive).samples[k]});
+      motions[d].push_back({observed.quantities[deflection].value[k],
+                            observed.quantities[velocity].value[k], drive[k]});
   }
   return motions;
 }

@@ -56,7 +56,7 @@ std::vector<RecordingNoise> noise_about(const InPlantSetup& setup, const PlantCa
     std::vector<double> force;
     for (const DamperTrace& damper : trace.dampers)
       for (std::size_t k = first; k < trace.training; ++k) {
-        motion.push_back({damper.deflection[k], damper.velocity[k], trace.current[k]});
+        motion.push_back({damper.deflection[k], damper.velocity[k], damper.current[k]});
         force.push_back(damper.force[k]);
       }
     const auto stand_in = stand_in_of(motion, force);

@@ -14,19 +14,22 @@ namespace dashpot {
 /// other, of each as LawUnknowns has them.
 class DamperUnknowns {
  public:
-  /// each: of one kind.
-  DamperUnknowns(LawUnknowns each, DamperKinds kinds);
+  /// each: of every kind.
+  DamperUnknowns(const LawUnknowns& each, DamperKinds kinds);
+  /// Of the dampers of a plant: in a kind whose drive never changes parameters are constant.
+  DamperUnknowns(const Law& law, const DataScale& scale, const InPlantSetup& setup,
+                 const std::vector<ParameterChoice>& choices);
 
   std::size_t kinds() const { return kinds_.size(); }
   std::size_t size() const { return lower_.size(); }
   const std::vector<double>& lower() const { return lower_; }
   const std::vector<double>& upper() const { return upper_; }
-  const std::vector<std::string>& warnings() const { return each_.warnings(); }
-  /// The same of other kinds.
-  DamperUnknowns in_kinds(DamperKinds kinds) const { return {each_, std::move(kinds)}; }
-  bool slows_filter() const { return each_.slows_filter(); }
+  std::vector<std::string> warnings() const;
+  /// Those of dampers that are alike, in dampers of these kinds.
+  DamperUnknowns in_kinds(DamperKinds kinds) const { return {laws_.front(), std::move(kinds)}; }
+  bool slows_filter() const { return laws_.front().slows_filter(); }
 
-  /// All kinds as this one is.
+  /// All kinds as this one is, of dampers that are alike.
   std::vector<double> alike(const std::vector<double>& one) const;
   /// All kinds alike; with `random`, each value of each is moved as LawUnknowns does it.
   std::vector<double> start(Random* random = nullptr) const;
@@ -62,14 +65,16 @@ class DamperUnknowns {
 
  private:
   std::span<const double> of_kind(std::span<const double> unknowns, std::size_t kind) const {
-    return unknowns.subspan(kind * each_.size(), each_.size());
+    return unknowns.subspan(first_[kind], laws_[kind].size());
   }
   Group group_of(std::size_t kind, const LawUnknowns::Group& in_law) const {
-    return {kind, in_law, kind * each_.size() + in_law.first};
+    return {kind, in_law, first_[kind] + in_law.first};
   }
+  void add(LawUnknowns law);
 
-  LawUnknowns each_;
   DamperKinds kinds_;
+  std::vector<LawUnknowns> laws_;   ///< per kind
+  std::vector<std::size_t> first_;  ///< of each kind's
   std::vector<double> lower_, upper_;
 };
 

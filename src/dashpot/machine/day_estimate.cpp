@@ -136,7 +136,7 @@ PlantObserver DayProblem::observer(const std::vector<double>& x) const {
 
 ObservedSamples DayProblem::with_inputs(const std::vector<double>& x) const {
   ObservedSamples moved = samples_;
-  const std::size_t width = samples_.inputs + 1;
+  const std::size_t width = samples_.inputs + samples_.drives;
   for (std::size_t k = 0; k < samples_.count; ++k)
     for (std::size_t i = 0; i < samples_.inputs; ++i)
       moved.driven[k * width + i] *= 1 + kInputShare * x[size_ + i];

@@ -13,6 +13,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/beside_noise.h"
+#include "dashpot/machine/damper_drive.h"
 #include "dashpot/machine/force_leap.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_report.h"
@@ -48,7 +49,7 @@ LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations
 /// The unknowns of the law in the dampers, in some size of force and motion.
 DamperUnknowns unknowns_of(const Law& law, const DataScale& scale, const InPlantSetup& setup,
                            const InPlantOptions& options) {
-  return {{law, scale, setup.drive_unit, OffsetMode::Record, options.choices}, setup.kinds};
+  return {law, scale, setup, options.choices};
 }
 
 /// The law's unknowns in some size of its force, and where their fit has come to.
@@ -226,16 +227,6 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
   return left.front();
 }
 
-std::pair<double, double> drive_range(const PlantCases& cases) {
-  double low = INFINITY, high = -INFINITY;
-  for (const PlantCase& one : cases.all) {
-    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
-    low = std::min(low, least);
-    high = std::max(high, greatest);
-  }
-  return {low, high};
-}
-
 /// So many steps per sample that Runge-Kutta, whose limit is 2.78, stays stable with the law as it
 /// starts.
 std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
@@ -360,18 +351,21 @@ LeastSquaresReport solve_weighed(const InPlantSetup& setup, PlantResiduals& resi
 
 /// What the dampers of a kind went through.
 Domain domain_of(std::size_t kind, const InPlantSetup& setup,
-                 const std::vector<InPlantTrace>& traces, const DriveRange& drive) {
-  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
+                 const std::vector<InPlantTrace>& traces) {
+  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (const InPlantTrace& trace : traces)
     for (std::size_t d = 0; d < trace.dampers.size(); ++d) {
       if (setup.kinds.at(d) != kind) continue;
       const DamperTrace& damper = trace.dampers[d];
       const auto [shortest, longest] = std::ranges::minmax(damper.deflection);
       const auto [slowest, quickest] = std::ranges::minmax(damper.velocity);
+      const auto [least, greatest] = std::ranges::minmax(damper.current);
       domain.displacement_min = std::min(domain.displacement_min, shortest);
       domain.displacement_max = std::max(domain.displacement_max, longest);
       domain.velocity_min = std::min(domain.velocity_min, slowest);
       domain.velocity_max = std::max(domain.velocity_max, quickest);
+      domain.current_min = std::min(domain.current_min, least);
+      domain.current_max = std::max(domain.current_max, greatest);
     }
   return domain;
 }
@@ -469,9 +463,11 @@ bool goes_by_leaps(const LeastSquaresProblem& problem, const LeastSquaresReport&
 bool warn_of_leaps(const PlantResiduals& residuals, const PlantCases& cases,
                    const LeastSquaresReport& solved, const Covariance& spread, int threads,
                    InPlantReport& report) {
-  const auto [low, high] = drive_range(cases);
+  const DriveRange drive = drive_range(cases);
   const bool is_coarse = report.step_error > kStepShare;
-  const auto leaps_somewhere = [&](const LawModel& law) { return leaps_at_rest(law, low, high); };
+  const auto leaps_somewhere = [&](const LawModel& law) {
+    return leaps_at_rest(law, drive.low, drive.high);
+  };
   if (!is_coarse && std::ranges::none_of(residuals.laws(solved.x), leaps_somewhere)) return false;
   const bool leaps = goes_by_leaps(residuals.problem(0, threads), solved, spread,
                                    residuals.first_state(), threads);
@@ -502,8 +498,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit
   // with a spring and a dashpot in the damper's place.
   PlantCases cases = make_cases(setup, recordings, options.steps);
-  const auto [low, high] = drive_range(cases);
-  require_drive(law, setup, low, high, options, report.warnings);
+  require_drive(law, setup, recordings, options, report.warnings);
   const PlantStart start = plant_start(setup, recordings, cases, options);
   report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
 
@@ -599,7 +594,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   for (std::size_t kind = 0; kind < laws.size(); ++kind)
     report.kinds.push_back({setup.kinds.names[kind], setup.kinds.struts(kind, setup.dampers()),
                             std::make_shared<LawModel>(std::move(laws[kind])),
-                            domain_of(kind, setup, report.traces, start.scale.drive)});
+                            domain_of(kind, setup, report.traces)});
   report.seconds = cpu_seconds() - started;
   return report;
 }
@@ -679,8 +674,8 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
 
   // As it is stated; where that leaves too much, with dampers that are not alike, beside delays.
   FitDoubts doubts;
-  InPlantSetup as_taken = setup;
-  InPlantReport report = fit_somehow(law, setup, recordings, options, doubts);
+  InPlantSetup as_taken = with_held_drives(setup, recordings);
+  InPlantReport report = fit_somehow(law, as_taken, recordings, options, doubts);
   if (report.has_models() && doubts.are_unlike)
     report = fit_unlike(law, as_taken, recordings, options, std::move(report), doubts);
   if (report.has_models() &&
@@ -700,7 +695,7 @@ std::vector<double> plant_response(const Plant& plant, const DamperModel& damper
   const PlantDriving& driving = cases.all.front().driving;
 
   const std::vector<const DamperModel*> dampers(setup.dampers(), &damper);
-  std::vector<double> state = equations.at_rest(dampers, driving.current.front());
+  std::vector<double> state = equations.at_rest(dampers, driving);
   std::vector<std::vector<double>> shown;
   if (!equations.run(dampers, driving, driving.samples, {&setup.sensors.front().place, 1}, state,
                      shown))

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/damper_drive.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/linear_algebra.h"
 
@@ -160,20 +162,35 @@ std::string unlike_found(const InPlantSetup& unlike) {
          "them together";
 }
 
-void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,
-                   const InPlantOptions& options, std::vector<std::string>& warnings) {
-  if (high > low) return;
-  const std::string level = format_number(low) + " " + to_string(setup.drive_unit);
-  for (const ParameterChoice& choice : options.choices)
-    if (choice.form && *choice.form != Form::Constant)
-      throw Error("form of " + choice.parameter,
-                  "cannot be told: the drive is " + level + " all along",
-                  "record at several levels, or leave the form out");
+void require_drive(const Law& law, const InPlantSetup& setup,
+                   const std::vector<PlantRecording>& recordings, const InPlantOptions& options,
+                   std::vector<std::string>& warnings) {
   const bool follows =
       std::ranges::any_of(law.params, [](const ParamInfo& p) { return p.form != Form::Constant; });
-  if (follows && setup.drive_unit != DriveUnit::None)
-    warnings.push_back("the drive is " + level +
-                       " all along: the damper is identified there and nowhere else");
+  const auto asked = std::ranges::find_if(options.choices, [](const ParameterChoice& choice) {
+    return choice.form && *choice.form != Form::Constant;
+  });
+  for (std::size_t kind = 0; kind < setup.kinds.size(); ++kind) {
+    // The levels that drive the dampers of this kind.
+    std::set<double> levels;
+    for (const std::size_t damper : setup.kinds.struts(kind, setup.dampers()))
+      for (const PlantRecording& recording : recordings)
+        for (const double level : drive_samples(setup.drive_of(damper), recording))
+          levels.insert(level);
+    if (levels.size() > 1) continue;
+
+    // One alone.
+    const std::string& name = setup.kinds.names[kind];
+    const std::string drive = "the drive" + (name.empty() ? "" : " of the damper " + name) +
+                              " is " + format_number(*levels.begin()) + " " +
+                              to_string(setup.drive_unit) + " all along";
+    if (asked != options.choices.end())
+      throw Error("form of " + asked->parameter, "cannot be told: " + drive,
+                  "record at several levels, or leave the form out");
+    if (follows && setup.drive_unit != DriveUnit::None)
+      warnings.push_back(drive + ": " + (name.empty() ? "the damper" : "it") +
+                         " is identified there and nowhere else");
+  }
 }
 
 }  // namespace dashpot

@@ -138,8 +138,10 @@ std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
 std::string unlike_found(const InPlantSetup& unlike);
 
 /// A current that never changes tells nothing of what the law does at others: asking for that is an
-/// error; a law that could tell it is kept to this one, and a warning says so.
-void require_drive(const Law& law, const InPlantSetup& setup, double low, double high,
-                   const InPlantOptions& options, std::vector<std::string>& warnings);
+/// error; a law that could tell it is kept to this one, and a warning says so, for each kind of
+/// damper.
+void require_drive(const Law& law, const InPlantSetup& setup,
+                   const std::vector<PlantRecording>& recordings, const InPlantOptions& options,
+                   std::vector<std::string>& warnings);
 
 }  // namespace dashpot

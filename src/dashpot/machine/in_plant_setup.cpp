@@ -18,7 +18,15 @@ std::vector<std::string> InPlantSetup::channels() const {
   for (const PlantInputChannel& input : inputs)
     if (input.follows.empty()) add(input.channel);
   for (const PlantSensor& sensor : sensors) add(sensor.channel);
-  add(drive);
+  for (const DamperDrive& drive : drives) add(drive.channel);
+  return names;
+}
+
+std::vector<std::string> InPlantSetup::drive_channels() const {
+  std::vector<std::string> names;
+  for (const DamperDrive& drive : drives)
+    if (!drive.channel.empty() && std::ranges::find(names, drive.channel) == names.end())
+      names.push_back(drive.channel);
   return names;
 }
 
@@ -67,8 +75,9 @@ void require_units(const InPlantSetup& setup, const PlantRecording& recording) {
   }
   for (const PlantSensor& sensor : setup.sensors)
     require(sensor.channel, unit_of(sensor.place, plant));
-  if (!setup.drive.empty() && setup.drive_unit != DriveUnit::None)
-    require(setup.drive, to_string(setup.drive_unit));
+  if (setup.drive_unit != DriveUnit::None)
+    for (const std::string& channel : setup.drive_channels())
+      require(channel, to_string(setup.drive_unit));
 }
 
 void require_one_damper(const InPlantSetup& setup, const std::string& who) {
@@ -227,6 +236,11 @@ void require_setup(const InPlantSetup& setup) {
     if (sensor.place.coordinate >= plant.size() || sensor.place.strut >= plant.struts.size())
       throw Error(where + ", " + sensor.channel, "stands where the plant has nothing");
   require_roads(setup, plant, where);
+  if (setup.drives.size() != 1 && setup.drives.size() != plant.struts.size())
+    throw Error(where + ", " + to_string(setup.drive_unit),
+                "has " + std::to_string(setup.drives.size()) + " drives for " +
+                    std::to_string(plant.struts.size()) + " dampers",
+                "one of all dampers, or one for each strut");
   const DrivenPlant equations(plant, inputs);
   if (!(setup.held_back >= 0 && setup.held_back < 0.9))
     throw Error(where + ", held_back", "is " + format_number(setup.held_back),

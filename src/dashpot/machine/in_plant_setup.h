@@ -90,6 +90,12 @@ struct DamperKinds {
 /// "_left" and "_right" alone.
 DamperKinds kinds_by_axle(const Plant& plant);
 
+/// What drives a damper, as it is recorded.
+struct DamperDrive {
+  std::string channel;  ///< of the current or voltage; empty: `level` all along
+  double level = 0;     ///< A or V
+};
+
 struct PlantOfMatrices;
 struct PlantRecording;
 
@@ -102,9 +108,8 @@ struct InPlantSetup {
   std::vector<PlantUnknown> unknown;
   std::vector<PlantInputChannel> inputs;
   std::vector<PlantSensor> sensors;
-  DamperKinds kinds;  ///< of the dampers
-  std::string drive;  ///< channel of the current or voltage; empty: `level` all along
-  double level = 0;   ///< A or V
+  DamperKinds kinds;                       ///< of the dampers
+  std::vector<DamperDrive> drives = {{}};  ///< one of all dampers, or one for each strut
   DriveUnit drive_unit = DriveUnit::None;
   bool from_rest = false;   ///< each recording begins at rest
   double held_back = 0.25;  ///< share of each recording, its end, that judges the result
@@ -114,6 +119,11 @@ struct InPlantSetup {
   std::vector<std::string> channels() const;
   /// How many dampers stand in the plant.
   std::size_t dampers() const;
+  const DamperDrive& drive_of(std::size_t damper) const {
+    return drives[drives.size() > 1 ? damper : 0];
+  }
+  /// The channels of the drives, each once.
+  std::vector<std::string> drive_channels() const;
 };
 
 /// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
@@ -172,6 +182,7 @@ struct SensorFigures {
 struct DamperTrace {
   std::string strut;  ///< in which it stands
   std::vector<double> deflection, velocity, force;
+  std::vector<double> current = {};  ///< A or V
 };
 
 /// The sensors over one recording, as measured and in free run.
@@ -181,7 +192,6 @@ struct InPlantTrace {
   std::size_t training = 0;                             ///< samples that were fitted
   std::vector<std::vector<double>> measured, modelled;  ///< per sensor; offsets put on
   std::vector<DamperTrace> dampers = {};
-  std::vector<double> current = {};
 };
 
 }  // namespace dashpot

@@ -231,14 +231,9 @@ void require_stated(const InPlantSetup& setup, const std::string& where) {
 }
 
 /// A drive: the name of a channel, or a constant level with its unit.
-void read_drive(InPlantSetup& setup, const std::string& text, DriveUnit unit,
-                const std::string& where) {
-  setup.drive_unit = unit;
+DamperDrive read_drive(const std::string& text, DriveUnit unit, const std::string& where) {
   const bool is_level = !text.empty() && text.find_first_of("0123456789.-+") == 0;
-  if (!is_level) {
-    setup.drive = text;
-    return;
-  }
+  if (!is_level) return {.channel = text};
 
   // A level in the other unit belongs to the other key.
   const bool is_volt = unit == DriveUnit::Volt;
@@ -253,7 +248,53 @@ void read_drive(InPlantSetup& setup, const std::string& text, DriveUnit unit,
                     "' for a damper that is "
                     "driven by a " +
                     (is_volt ? "current" : "voltage"));
-  setup.level = parse_quantity(text, to_string(unit), where);
+  return {.channel = {}, .level = parse_quantity(text, to_string(unit), where)};
+}
+
+/// Drives by the names of struts or kinds, each damper's once: {front: coil_f, rear: coil_r}.
+struct NamedDrive {
+  std::string name, where;
+  DamperDrive drive;
+};
+
+std::vector<DamperDrive> drives_by_name(const std::vector<NamedDrive>& named,
+                                        const InPlantSetup& setup, const std::string& where) {
+  std::vector<std::optional<DamperDrive>> found(setup.dampers());
+  for (const NamedDrive& one : named) {
+    const std::vector<std::size_t> dampers = dampers_named(setup, one.name);
+    if (dampers.empty())
+      throw Error(one.where, "'" + one.name + "' is neither a strut nor a kind of damper",
+                  suggest(one.name, damper_names(setup)));
+    for (const std::size_t d : dampers) {
+      if (found[d]) throw Error(one.where, "drives a damper that another one drives", "one each");
+      found[d] = one.drive;
+    }
+  }
+
+  // Each damper has one.
+  std::vector<DamperDrive> drives;
+  const Plant plant = make_plant(*setup.model, setup.known);
+  for (std::size_t d = 0; d < found.size(); ++d) {
+    if (!found[d])
+      throw Error(where, "nothing is said of the damper in " + plant.struts[d].name,
+                  "a channel or a level for each: " + join(damper_names(setup), ", "));
+    drives.push_back(*found[d]);
+  }
+  return drives;
+}
+
+/// What drives the dampers: all of them, or each by its strut or kind.
+std::vector<DamperDrive> read_drives(const Value& value, DriveUnit unit,
+                                     const InPlantSetup& setup) {
+  const auto drive_of = [&](const Value& one) {
+    return one.kind() == Value::Kind::Number ? DamperDrive{.channel = {}, .level = one.as_number()}
+                                             : read_drive(one.as_string(), unit, one.where());
+  };
+  if (value.kind() != Value::Kind::Object) return {drive_of(value)};
+  std::vector<NamedDrive> named;
+  for (const auto& [name, one] : value.members())
+    named.push_back({name, one.where(), drive_of(one)});
+  return drives_by_name(named, setup, value.where());
 }
 
 /// "CHANNEL@body"
@@ -268,6 +309,7 @@ InPlantSetup from_words(const std::string& words) {
   InPlantSetup setup;
   setup.model = &find_machine(std::string(trim(parts.front())), where);
   std::vector<std::pair<std::string, std::string>> channels;
+  std::vector<NamedDrive> drives;
 
   // The plant's numbers first: they say which coordinates it has.
   for (std::size_t k = 1; k < parts.size(); ++k) {
@@ -280,7 +322,13 @@ InPlantSetup from_words(const std::string& words) {
     if (find_input(key) || find_quantity(key)) {
       channels.emplace_back(key, value);
     } else if (key == "current" || key == "voltage") {
-      read_drive(setup, value, key == "current" ? DriveUnit::Ampere : DriveUnit::Volt, at);
+      const DriveUnit unit = key == "current" ? DriveUnit::Ampere : DriveUnit::Volt;
+      const auto [drive, place] = channel_and_place(value);
+      if (setup.drive_unit != DriveUnit::None && (setup.drive_unit != unit || place.empty()))
+        throw Error(at, "the dampers are driven already",
+                    "one of 'current' and 'voltage', or one for each damper: coil_f@front");
+      setup.drive_unit = unit;
+      drives.push_back({place, at, read_drive(drive, unit, at)});
     } else if (key == "held_back") {
       setup.held_back = parse_quantity(value, "1", at);
     } else if (key == "skip") {
@@ -312,6 +360,10 @@ InPlantSetup from_words(const std::string& words) {
       setup.sensors.push_back(
           {.channel = channel, .place = sensor_place(*find_quantity(key), plant, place, at)});
   }
+  if (drives.size() == 1 && drives.front().name.empty())
+    setup.drives = {drives.front().drive};
+  else if (!drives.empty())
+    setup.drives = drives_by_name(drives, setup, where);
   return setup;
 }
 
@@ -507,6 +559,16 @@ Value kinds_json(const DamperKinds& kinds, const Plant& plant) {
   return all;
 }
 
+Value drives_json(const std::vector<DamperDrive>& drives, const Plant& plant) {
+  const auto one = [](const DamperDrive& drive) {
+    return drive.channel.empty() ? Value(drive.level) : Value(drive.channel);
+  };
+  if (drives.size() == 1) return one(drives.front());
+  Value all = Value::object();
+  for (std::size_t d = 0; d < drives.size(); ++d) all.add(plant.struts[d].name, one(drives[d]));
+  return all;
+}
+
 }  // namespace
 
 InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& source) {
@@ -523,19 +585,15 @@ InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& sour
 
   if (const Value* kinds = reader.optional("damper_kinds")) setup.kinds = read_kinds(*kinds, plant);
 
-  // What drives the damper: a channel or a level, of one unit.
+  // What drives the dampers: channels or levels, of one unit.
   for (const auto& [key, unit] :
        {std::pair{"current", DriveUnit::Ampere}, std::pair{"voltage", DriveUnit::Volt}}) {
     const Value* drive = reader.optional(key);
     if (!drive) continue;
     if (setup.drive_unit != DriveUnit::None)
       throw Error(drive->where(), "a damper is driven by a current or a voltage, not by both");
-    if (drive->kind() == Value::Kind::Number) {
-      setup.level = drive->as_number();
-      setup.drive_unit = unit;
-    } else {
-      read_drive(setup, drive->as_string(), unit, drive->where());
-    }
+    setup.drive_unit = unit;
+    setup.drives = read_drives(*drive, unit, setup);
   }
   const std::string start = reader.string("start", "unknown");
   if (start != "rest" && start != "unknown")
@@ -634,7 +692,7 @@ Value to_json(const InPlantSetup& setup) {
     file.add("damper_kinds", "alike");
   if (setup.drive_unit != DriveUnit::None) {
     const std::string key = setup.drive_unit == DriveUnit::Volt ? "voltage" : "current";
-    file.add(key, setup.drive.empty() ? Value(setup.level) : Value(setup.drive));
+    file.add(key, drives_json(setup.drives, plant));
   }
   file.add("start", setup.from_rest ? "rest" : "unknown");
   file.add("held_back", setup.held_back);

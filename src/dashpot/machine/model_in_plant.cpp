@@ -40,7 +40,7 @@ DataScale scale_of(const std::vector<InPlantTrace>& traces) {
     scale.force = std::max(scale.force, half_width(damper.force));
     scale.stroke = std::max(scale.stroke, half_width(damper.deflection));
     scale.speed = std::max(scale.speed, half_width(damper.velocity));
-    const auto [low, high] = std::ranges::minmax(trace.current);
+    const auto [low, high] = std::ranges::minmax(damper.current);
     scale.drive.varies |= high > low;
     scale.drive.low = std::min(scale.drive.low, low);
     scale.drive.high = std::max(scale.drive.high, high);

@@ -12,6 +12,7 @@
 #include "dashpot/error.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/damper_drive.h"
 #include "dashpot/machine/recording_parts.h"
 #include "dashpot/machine/sensor_faults.h"
 #include "dashpot/numerics/distributions.h"
@@ -274,7 +275,7 @@ std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InP
           std::min(samples[r].count / 2, static_cast<std::size_t>(kSettled / told.sample_time));
       std::vector<DamperInput>& motion = motions.emplace_back();
       for (std::size_t k = first; k < samples[r].count; ++k)
-        motion.push_back({deflection[k], velocity[k], samples[r].driven_at(k).back()});
+        motion.push_back({deflection[k], velocity[k], samples[r].drive_at(k, d)});
     }
 
     // A model whose file states no motion, as a published one, has no range of it.
@@ -427,15 +428,16 @@ ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording
   const std::vector<std::string> inputs = measured_inputs(setup);
   ObservedSamples samples{.count = recording.samples,
                           .inputs = inputs.size(),
+                          .drives = setup.drives.size(),
                           .sensors = setup.sensors.size(),
                           .driven = {},
                           .measured = {}};
   if (samples.count < kFewestObserved)
     throw Error(recording.name, "has " + std::to_string(samples.count) + " samples",
                 std::to_string(kFewestObserved) + " or more");
-  std::vector<const std::vector<double>*> driven;
-  for (const std::string& channel : inputs) driven.push_back(&recording.channel(channel).samples);
-  if (!setup.drive.empty()) driven.push_back(&recording.channel(setup.drive).samples);
+  std::vector<std::vector<double>> driven;
+  for (const std::string& channel : inputs) driven.push_back(recording.channel(channel).samples);
+  for (const DamperDrive& drive : setup.drives) driven.push_back(drive_samples(drive, recording));
 
   // A late sensor is brought forward, and from behind its filter.
   std::vector<std::vector<double>> measured;
@@ -446,8 +448,7 @@ ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording
       measured.back() = delayed(measured.back(), recording.sample_time, -sensor.delay);
   }
   for (std::size_t k = 0; k < samples.count; ++k) {
-    for (const std::vector<double>* channel : driven) samples.driven.push_back((*channel)[k]);
-    if (setup.drive.empty()) samples.driven.push_back(setup.level);
+    for (const std::vector<double>& channel : driven) samples.driven.push_back(channel[k]);
     for (const std::vector<double>& channel : measured) samples.measured.push_back(channel[k]);
   }
   return samples;
@@ -469,6 +470,10 @@ void require_plant_drive(const InPlantSetup& setup, const ModelFile& file,
                 "takes " + to_string(file.drive_unit) + ", and the plant states " +
                     to_string(setup.drive_unit),
                 "'voltage' or 'current' of the plant as the damper has it");
+}
+
+double resting_drive(const DamperDrive& drive, const Domain& domain) {
+  return drive.channel.empty() ? drive.level : domain.current_min;
 }
 
 std::string force_name(const std::string& strut, std::size_t dampers) {
@@ -493,12 +498,11 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   if (recordings.empty()) throw Error("recordings", "there are none", "name at least one");
   ObserveReport report{.struts = observer_names(setup).struts};
   assert(dampers.size() == report.struts.size());
-  const double drive =
-      setup.drive.empty() ? setup.level : recordings.front().channel(setup.drive).samples.front();
   DamperModels models;
-  for (ObservedDamper& damper : dampers) {
-    damper.model = mounted(std::move(damper.model), drive);
-    models.push_back(damper.model);
+  for (std::size_t d = 0; d < dampers.size(); ++d) {
+    const std::vector<double> drive = drive_samples(setup.drive_of(d), recordings.front());
+    dampers[d].model = mounted(std::move(dampers[d].model), drive.front());
+    models.push_back(dampers[d].model);
   }
 
   // How large things are, and what is uncertain.
@@ -601,7 +605,7 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
   require_alike(setup, "an observer that runs alone");
   require_steps(options.steps);
   setup.from_rest = true;
-  damper = mounted(std::move(damper), setup.drive.empty() ? setup.level : domain.current_min);
+  damper = mounted(std::move(damper), resting_drive(setup.drives.front(), domain));
   const DamperModels models(setup.dampers(), damper);
   ObserverScale scale = observer_scale(ObservedDampers(models.size(), {damper, domain}));
 

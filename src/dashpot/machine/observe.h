@@ -103,5 +103,8 @@ ObservedSamples observed_samples(const InPlantSetup& setup, const PlantRecording
 
 /// The damper in equilibrium at rest, where the springs bear what it has there.
 std::shared_ptr<const DamperModel> mounted(std::shared_ptr<const DamperModel> damper, double drive);
+/// That which a damper is taken to be mounted under before anything was recorded: its level, of a
+/// channel the least of the model's domain.
+double resting_drive(const DamperDrive& drive, const Domain& domain);
 
 }  // namespace dashpot

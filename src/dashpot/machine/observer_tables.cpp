@@ -231,6 +231,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   t.roads = static_cast<int>(std::ranges::count_if(
       inputs, [](const PlantInputChannel& one) { return one.road.has_value(); }));
   t.inputs = static_cast<int>(inputs.size()) - t.roads;
+  t.drives = static_cast<int>(setup.drives.size());
   const auto measured = static_cast<std::size_t>(t.inputs), roads = inputs.size() - measured;
   StepMatrices matrices = step_matrices(equations, acting, t.step);
   for (const DamperPlace& place : equations.dampers()) {

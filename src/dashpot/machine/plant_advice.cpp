@@ -233,13 +233,8 @@ struct Manoeuvre {
 
 std::vector<Manoeuvre> manoeuvres(const EndedFit& fit) {
   std::vector<Manoeuvre> all = {{"twice the amplitude", 2}, {"half the amplitude", 0.5}};
-  double low = INFINITY, high = -INFINITY;
-  for (const PlantCase& one : fit.cases.all) {
-    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
-    low = std::min(low, least);
-    high = std::max(high, greatest);
-  }
-  if (fit.setup.drive.empty() || !(high > low)) return all;
+  const auto [low, high, varies, levels] = drive_range(fit.cases);
+  if (fit.setup.drive_channels().empty() || !(high > low)) return all;
   const std::string unit = to_string(fit.setup.drive_unit);
   for (const double level : {low, 0.5 * (low + high), high, high + 0.5 * (high - low)})
     all.push_back({format_number(level, 3) + " " + unit + " all along", 1, level});
@@ -256,8 +251,9 @@ Information information_of(const EndedFit& fit, const Manoeuvre& manoeuvre,
     for (std::vector<double>& input : *list)
       for (double& value : input) value *= manoeuvre.amplitude;
   if (manoeuvre.level) {
-    std::ranges::fill(one.driving.current, *manoeuvre.level);
-    one.steady = true;
+    for (std::vector<double>& current : one.driving.current)
+      std::ranges::fill(current, *manoeuvre.level);
+    std::ranges::fill(one.levels, manoeuvre.level);
   }
 
   // The same sensors with the same scales; the state at the beginning goes with the amplitude.

@@ -63,12 +63,12 @@ void pass(Bytes& bytes, SensorFigures& s) {
 
 template <class Bytes>
 void pass(Bytes& bytes, DamperTrace& d) {
-  bytes(d.strut, d.deflection, d.velocity, d.force);
+  bytes(d.strut, d.deflection, d.velocity, d.force, d.current);
 }
 
 template <class Bytes>
 void pass(Bytes& bytes, InPlantTrace& t) {
-  bytes(t.recording, t.sample_time, t.training, t.measured, t.modelled, t.dampers, t.current);
+  bytes(t.recording, t.sample_time, t.training, t.measured, t.modelled, t.dampers);
 }
 
 template <class Bytes>

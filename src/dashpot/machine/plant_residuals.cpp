@@ -14,6 +14,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/damper_drive.h"
 
 namespace dashpot {
 namespace {
@@ -28,11 +29,6 @@ double rms_about(std::span<const double> samples, double centre) {
   double sum = 0;
   for (const double sample : samples) sum += (sample - centre) * (sample - centre);
   return std::sqrt(sum / static_cast<double>(samples.size()));
-}
-
-bool is_constant(std::span<const double> samples) {
-  const auto [low, high] = std::ranges::minmax(samples);
-  return high - low <= 1e-12 * std::max(std::abs(low), std::abs(high));
 }
 
 /// Opens a latch at the end of a scope, however that is left.
@@ -51,69 +47,6 @@ bool is_far(std::span<const double> errors, std::span<const double> measured, do
 }
 
 }  // namespace
-
-PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                      std::size_t steps, PlantMethod method) {
-  constexpr std::size_t kFirstGuess = 2, kFewest = 200;
-  PlantCases cases{.all = {}, .steps = steps > 0 ? steps : kFirstGuess, .method = method};
-  for (const PlantRecording& recording : recordings) {
-    require_units(setup, recording);
-    PlantCase one{.name = recording.name};
-    one.driving = {.sample_time = recording.sample_time,
-                   .samples = recording.samples,
-                   .steps = cases.steps,
-                   .method = method,
-                   .value = {},
-                   .rate = {},
-                   .current = {},
-                   .leap_time = recording.sample_time};
-
-    // The part that is fitted: nobody knows what filters held before the first sample.
-    double skip = setup.skip;
-    for (const PlantSensor& sensor : setup.sensors)
-      if (!setup.from_rest) skip = std::max(skip, memory_of(sensor.filter));
-    one.first = static_cast<std::size_t>(skip / recording.sample_time);
-    one.training =
-        static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
-    if (one.training < one.first + kFewest)
-      throw Error(recording.name, "leaves " + std::to_string(one.training) + " samples to fit",
-                  "at least " + std::to_string(kFewest) + " behind " +
-                      (skip > setup.skip ? "the " + format_number(skip, 3) +
-                                               " s in which sensors' filters forget what was before"
-                                         : "those that are skipped"));
-
-    // The inputs between the samples.
-    for (const PlantInputChannel& input : setup.inputs) {
-      const std::vector<double>& samples = recording.channel(input.channel).samples;
-      if (is_constant(samples))
-        throw Error(recording.name + ", " + input.channel,
-                    "is constant: nothing moves the plant, so that nothing can be told of it",
-                    "record while the plant is shaken, pushed or driven over a road");
-      FinerSignal finer = band_limited(samples, recording.sample_time, one.driving.stride());
-      one.driving.value.push_back(std::move(finer.value));
-      one.driving.rate.push_back(std::move(finer.rate));
-    }
-    one.driving.current = setup.drive.empty()
-                              ? std::vector<double>(one.driving.points(), setup.level)
-                              : straight_lines(recording.channel(setup.drive).samples,
-                                               recording.sample_time, one.driving.stride())
-                                    .value;
-
-    one.steady = std::ranges::minmax(one.driving.current).min ==
-                 std::ranges::minmax(one.driving.current).max;
-
-    // What the sensors showed.
-    for (const PlantSensor& sensor : setup.sensors) {
-      one.measured.push_back(recording.channel(sensor.channel).samples);
-      if (is_constant(one.measured.back()))
-        throw Error(recording.name + ", " + sensor.channel, "is constant",
-                    "a sensor that shows the plant's motion");
-    }
-    cases.all.push_back(std::move(one));
-  }
-  if (cases.all.empty()) throw Error("recordings", "there are none", "name at least one");
-  return cases;
-}
 
 PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
                                const DamperUnknowns& law, const std::vector<double>& plant,
@@ -250,15 +183,8 @@ PlantResiduals::Dampers PlantResiduals::dampers(std::span<const double> x) const
 PlantResiduals::Dampers PlantResiduals::laws_in(const PlantCase& one,
                                                 std::vector<LawModel> laws) const {
   std::vector<std::shared_ptr<const DamperModel>> kinds;
-  for (LawModel& law : laws) {
-    if (!one.steady) {
-      kinds.push_back(std::make_shared<LawModel>(std::move(law)));
-      continue;
-    }
-    std::vector<double> parameters(law.law().params.size());
-    law.parameters_at(one.driving.current.front(), parameters.data());
-    kinds.push_back(std::make_shared<LawModel>(LawModel::constant(law.law(), parameters)));
-  }
+  for (LawModel& law : at_held_levels(std::move(laws), one.levels))
+    kinds.push_back(std::make_shared<LawModel>(std::move(law)));
   return placed(std::move(kinds));
 }
 
@@ -327,13 +253,20 @@ DrivenPlant PlantResiduals::equations(std::span<const double> x) const {
 std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, std::size_t place,
                                                    const DrivenPlant& plant,
                                                    PlacedDampers dampers) const {
-  std::vector<double> state = plant.at_rest(dampers, cases_->all[place].driving.current.front());
-  const std::size_t of_plant = 2 * coordinates_, of_law = law_states_.size();
-  for (std::size_t k = 0; k < states(); ++k) {
-    // Behind the law's states each damper may have one of its coil, which begins at rest.
-    const std::size_t before = k < of_plant ? 0 : (k - of_plant) / of_law;
-    const std::size_t unknown = first_state_ + place * states() + k;
-    state[k + before * (dampers.front()->state_size() - of_law)] += size_[unknown] * x[unknown];
+  std::vector<double> state = plant.at_rest(dampers, cases_->all[place].driving);
+  const auto unknown = [&](std::size_t k) {
+    const std::size_t own = first_state_ + place * states() + k;
+    return size_[own] * x[own];
+  };
+  const std::size_t of_plant = std::min(states(), 2 * coordinates_), of_law = law_states_.size();
+  for (std::size_t k = 0; k < of_plant; ++k) state[k] += unknown(k);
+
+  // Behind the law's states each damper may have one of its coil, which begins at rest.
+  std::size_t first = of_plant;
+  for (std::size_t k = of_plant; k < states(); ++k) {
+    const std::size_t damper = (k - of_plant) / of_law, own = (k - of_plant) % of_law;
+    state[first + own] += unknown(k);
+    if (own + 1 == of_law) first += dampers[damper]->state_size();
   }
   return state;
 }
@@ -491,10 +424,11 @@ bool PlantResiduals::difference(std::span<const double> x, std::size_t place, st
 /// never changes.
 std::optional<DamperUnknowns::Group> PlantResiduals::moved_as_one(std::size_t k,
                                                                   std::size_t place) const {
-  if (!law_ || !is_of_law(k) || !cases_->all[place].steady || law_->slows_filter()) return {};
+  if (!law_ || !is_of_law(k) || law_->slows_filter()) return {};
   const std::size_t own = k - plant_unknowns();
   for (const DamperUnknowns::Group& group : law_->groups())
-    if (own >= group.first && own < group.first + group.count()) return group;
+    if (own >= group.first && own < group.first + group.count())
+      return cases_->all[place].levels[group.kind] ? std::optional(group) : std::nullopt;
   return {};
 }
 
@@ -524,7 +458,7 @@ bool PlantResiduals::difference_of_group(std::span<const double> x, std::size_t 
 
   // Each of its unknowns moves it by so much.
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const double slope = law_->slope(own, group, k, one.driving.current.front()) / step;
+    const double slope = law_->slope(own, group, k, *one.levels[group.kind]) / step;
     for (std::size_t i = 0; i < columns[k].size(); ++i) columns[k][i] = (moved[i] - r[i]) * slope;
   }
   return true;
@@ -825,11 +759,13 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
     const auto last = std::ptrdiff_t(sensors_.size());
     for (std::size_t d = 0; d < plant.dampers().size(); ++d) {
       const std::size_t own = sensors_.size() + 3 * d;
-      trace.dampers.push_back(
-          {shown_plant.struts[d].name, shown[own], shown[own + 1], shown[own + 2]});
+      trace.dampers.push_back({.strut = shown_plant.struts[d].name,
+                               .deflection = shown[own],
+                               .velocity = shown[own + 1],
+                               .force = shown[own + 2]});
+      for (std::size_t k = 0; k < count; ++k)
+        trace.dampers.back().current.push_back(one.driving.current[d][stride * k]);
     }
-    for (std::size_t k = 0; k < count; ++k)
-      trace.current.push_back(one.driving.current[stride * k]);
     trace.modelled.assign(shown.begin(), shown.begin() + last);
     traces[c] = std::move(trace);
   });

@@ -11,34 +11,11 @@
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/input_noise.h"
+#include "dashpot/machine/plant_cases.h"
 #include "dashpot/machine/plant_recording.h"
 #include "dashpot/numerics/least_squares.h"
 
 namespace dashpot {
-
-constexpr std::size_t kMostSteps = 16;  ///< of the integrator per sample, unasked
-constexpr double kStepShare = 0.05;     ///< of the error that is left: what half a step may change
-
-/// One recording, ready to be run.
-struct PlantCase {
-  std::string name;
-  PlantDriving driving;
-  std::vector<std::vector<double>> measured;  ///< per sensor
-  std::size_t first = 0;                      ///< sample that is compared first
-  std::size_t training = 0;                   ///< samples up to the end of what is fitted
-  bool steady = false;                        ///< the current never changes
-};
-
-struct PlantCases {
-  std::vector<PlantCase> all;
-  std::size_t steps = 1;  ///< of the integrator per sample
-  PlantMethod method = PlantMethod::RungeKutta;
-};
-
-/// steps: of the integrator per sample; 0: a first guess. Inputs are band-limited between samples,
-/// the current goes straight. Throws Error at an input that is constant, at a recording too short.
-PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                      std::size_t steps, PlantMethod method = PlantMethod::RungeKutta);
 
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'

@@ -151,20 +151,22 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::span<const PlantInputPlace> in
   }
 }
 
-std::vector<double> DrivenPlant::at_rest(PlacedDampers dampers, double drive) const {
-  assert(dampers.size() == dampers_.size());
+std::vector<double> DrivenPlant::at_rest(PlacedDampers dampers, const PlantDriving& driving) const {
+  assert(dampers.size() == dampers_.size() && driving.current.size() == dampers_.size());
   std::vector<double> state(2 * size_);
-  for (const DamperModel* damper : dampers) {
-    std::vector<double> own(damper->state_size());
-    damper->rest({0, 0, drive}, own);
+  for (std::size_t d = 0; d < dampers.size(); ++d) {
+    std::vector<double> own(dampers[d]->state_size());
+    dampers[d]->rest({0, 0, driving.current[d].front()}, own);
     state.insert(state.end(), own.begin(), own.end());
   }
   return state;
 }
 
-DamperInput DrivenPlant::damper_input(const DamperPlace& place, const PlantDriving& driving,
+DamperInput DrivenPlant::damper_input(std::size_t damper, const PlantDriving& driving,
                                       std::size_t point, const double* state) const {
-  DamperInput at{along(place.row, state), along(place.row, state + size_), driving.current[point]};
+  const DamperPlace& place = dampers_[damper];
+  DamperInput at{along(place.row, state), along(place.row, state + size_),
+                 driving.current[damper][point]};
   for (std::size_t u = 0; place.stands_on_ground && u < place.on_ground.size(); ++u) {
     at.displacement -= place.on_ground[u] * driving.value[u][point];
     at.velocity -= place.on_ground[u] * driving.rate[u][point];
@@ -193,7 +195,7 @@ void DrivenPlant::rates(PlacedDampers dampers, const PlantDriving& driving, std:
   std::size_t first = 2 * size_;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
     const std::size_t own = dampers[d]->state_size();
-    const DamperInput at = damper_input(dampers_[d], driving, point, state);
+    const DamperInput at = damper_input(d, driving, point, state);
     forces[d] = dampers[d]->flow(at, {state + first, own}, {out + first, own}) -
                 leaps[d].beyond_line(at, {state + first, own});
     first += own;
@@ -207,7 +209,7 @@ void DrivenPlant::settle(PlacedDampers dampers, const PlantDriving& driving,
   std::size_t place = 2 * size_;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
     const std::size_t own = dampers[d]->state_size();
-    const DamperInput first = damper_input(dampers_[d], driving, 0, state.data());
+    const DamperInput first = damper_input(d, driving, 0, state.data());
     DamperInput before = first;
     before.displacement -= driving.sample_time * first.velocity;
     dampers[d]->advance(before, first, driving.sample_time, state.subspan(place, own));
@@ -243,7 +245,7 @@ bool DrivenPlant::show(const PlantDriving& driving, std::size_t sample,
   bool finite = true;
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     const std::size_t q = sensors[s].coordinate, strut = sensors[s].strut;
-    const auto motion = [&] { return damper_input(dampers_[strut], driving, point, state); };
+    const auto motion = [&] { return damper_input(strut, driving, point, state); };
     double value = 0;
     switch (sensors[s].quantity) {
       case PlantQuantity::Displacement:
@@ -286,10 +288,10 @@ bool DrivenPlant::run(PlacedDampers dampers, const PlantDriving& driving, std::s
 
 std::vector<ForceLeap> DrivenPlant::leaps_of(PlacedDampers dampers,
                                              const PlantDriving& driving) const {
-  const auto [low, high] = std::ranges::minmax(driving.current);
   std::vector<ForceLeap> leaps;
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
     const DamperPlace& place = dampers_[d];
+    const auto [low, high] = std::ranges::minmax(driving.current[d]);
     leaps.emplace_back(*dampers[d], low, high, driving.leap_time,
                        along(place.row, place.by_force.data()));
   }
@@ -361,7 +363,7 @@ bool DrivenPlant::run_under_straight_force(PlacedDampers dampers, const PlantDri
   std::array<DamperInput, kMostDampers> from;
   Forces forces, next;
   for (std::size_t d = 0; d < count; ++d) {
-    from[d] = damper_input(dampers_[d], driving, 0, state.data());
+    from[d] = damper_input(d, driving, 0, state.data());
     forces[d] = next[d] = dampers[d]->force(from[d], states[d]);
   }
 
@@ -381,7 +383,7 @@ bool DrivenPlant::run_under_straight_force(PlacedDampers dampers, const PlantDri
     plant.end_without_force({driving.value, driving.rate}, point, state.data(), forces.data(),
                             end.data());
     for (std::size_t d = 0; d < count; ++d) {
-      DamperInput without = damper_input(dampers_[d], driving, point + 1, end.data());
+      DamperInput without = damper_input(d, driving, point + 1, end.data());
       for (std::size_t e = 0; e < count; ++e) {
         if (e == d) continue;
         without.displacement += moves[d][e] * next[e];
@@ -396,7 +398,7 @@ bool DrivenPlant::run_under_straight_force(PlacedDampers dampers, const PlantDri
       for (std::size_t d = 0; d < count; ++d) state[k] += plant.by_end_force(d)[k] * next[d];
     }
     for (std::size_t d = 0; d < count; ++d) {
-      from[d] = damper_input(dampers_[d], driving, point + 1, state.data());
+      from[d] = damper_input(d, driving, point + 1, state.data());
       const double last = forces[d];
       forces[d] = next[d];
       next[d] = 2 * forces[d] - last;

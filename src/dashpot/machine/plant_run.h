@@ -73,13 +73,13 @@ enum class PlantMethod {
 };
 
 /// The inputs at every instant that the integrator asks for. Each input has a value and a rate
-/// there; the drive of the damper stands beside them.
+/// there; the drives of the dampers stand beside them.
 struct PlantDriving {
   double sample_time = 0;
   std::size_t samples = 0, steps = 1;  ///< steps: of the integrator per sample
   PlantMethod method = PlantMethod::RungeKutta;
   std::vector<std::vector<double>> value, rate;  ///< per input, per point
-  std::vector<double> current;                   ///< A or V, per point
+  std::vector<std::vector<double>> current;      ///< A or V, per damper, per point
   /// s, by Runge-Kutta: in which a force goes over its leap (force_leap.h); 0: at once.
   double leap_time = 0;
 
@@ -93,8 +93,8 @@ struct PlantDriving {
 
 /// Runs of which one differs hardly from the other.
 struct RunBeside {
-  /// Under a force that goes straight, of dampers that have as many states each: one that keeps its
-  /// steps in a tangent, or one that follows it at half the price.
+  /// Under a force that goes straight: one that keeps its steps in a tangent, or one that follows
+  /// it at half the price.
   RunTangent* keep = nullptr;
   const RunTangent* follow = nullptr;
   /// What the other one shows, by a run that differs from it in its beginning alone: once that is
@@ -125,8 +125,8 @@ class DrivenPlant {
   const std::vector<DamperPlace>& dampers() const { return dampers_; }
 
   /// Coordinates, velocities and the states of these dampers, one for each strut, with these at
-  /// rest; the states of one follow those of the other.
-  std::vector<double> at_rest(PlacedDampers dampers, double drive) const;
+  /// rest under what drives them first; the states of one follow those of the other.
+  std::vector<double> at_rest(PlacedDampers dampers, const PlantDriving& driving) const;
   /// Runs the plant with these dampers from `state` (q, q', states of each damper) over the first
   /// so many samples; `state` is then that at the last of them. Per sensor `shown` gets the
   /// samples. False where one of them is not finite. By Runge-Kutta each damper must be one that
@@ -177,7 +177,7 @@ class DrivenPlant {
              std::span<const ForceLeap> leaps) const;
   /// Of each damper.
   std::vector<ForceLeap> leaps_of(PlacedDampers dampers, const PlantDriving& driving) const;
-  DamperInput damper_input(const DamperPlace& place, const PlantDriving& driving, std::size_t point,
+  DamperInput damper_input(std::size_t damper, const PlantDriving& driving, std::size_t point,
                            const double* state) const;
 
   std::size_t size_ = 0;

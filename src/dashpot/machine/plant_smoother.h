@@ -6,18 +6,21 @@
 
 namespace dashpot {
 
-/// The samples of a recording as a filter takes them: per sample the measured inputs with the drive
-/// behind them, and what each sensor shows.
+/// The samples of a recording as a filter takes them: per sample the measured inputs with the
+/// drives behind them, and what each sensor shows.
 struct ObservedSamples {
-  std::size_t count = 0, inputs = 0, sensors = 0;
-  std::vector<double> driven;    ///< count x (inputs + 1)
+  std::size_t count = 0, inputs = 0, drives = 1, sensors = 0;
+  std::vector<double> driven;    ///< count x (inputs + drives)
   std::vector<double> measured;  ///< count x sensors
   /// Where the plant and its roads are at the first sample, velocities to a tenth; empty: nobody
   /// knows.
   std::vector<double> about = {};
 
   std::span<const double> driven_at(std::size_t k) const {
-    return std::span(driven).subspan(k * (inputs + 1), inputs + 1);
+    return std::span(driven).subspan(k * (inputs + drives), inputs + drives);
+  }
+  double drive_at(std::size_t k, std::size_t damper) const {
+    return driven_at(k)[inputs + (drives > 1 ? damper : 0)];
   }
   std::span<const double> measured_at(std::size_t k) const {
     return std::span(measured).subspan(k * sensors, sensors);

@@ -152,17 +152,8 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   PlantStart start;
   start.plant = first_numbers(setup, regression_of(setup, cases), start.warnings);
 
-  // The range of the drive.
   DataScale& scale = start.scale;
-  scale.drive = {INFINITY, -INFINITY, false, 1};
-  for (const PlantCase& one : cases.all) {
-    const auto [low, high] = std::ranges::minmax(one.driving.current);
-    scale.drive.varies |= high > low;
-    scale.drive.low = std::min(scale.drive.low, low);
-    scale.drive.high = std::max(scale.drive.high, high);
-  }
-  if (scale.drive.high > scale.drive.low && !scale.drive.varies)
-    scale.drive.levels = cases.all.size();
+  scale.drive = drive_range(cases);
 
   // A dashpot of a fifth of the critical damping says how large motion and force are.
   NamedValues values = setup.known;

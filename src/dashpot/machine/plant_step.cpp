@@ -115,15 +115,15 @@ void PlantStep::end_without_force(const PlantInputSamples& inputs, std::size_t p
 }
 
 void RunTangent::add(const StepTangent& step) {
-  states_ = step.states.size();
+  first_.push_back(numbers_.size());
   numbers_.push_back(step.force);
   numbers_.push_back(step.answer);
   numbers_.insert(numbers_.end(), step.states.begin(), step.states.end());
 }
 
 StepTangent RunTangent::at(std::size_t step) const {
-  const std::span<const double> own =
-      std::span(numbers_).subspan(step * (2 + states_), 2 + states_);
+  const std::size_t end = step + 1 < size() ? first_[step + 1] : numbers_.size();
+  const std::span<const double> own = std::span(numbers_).subspan(first_[step], end - first_[step]);
   return {.force = own[0], .answer = own[1], .states = own.subspan(2)};
 }
 

@@ -77,10 +77,10 @@ class RunTangent {
  public:
   void add(const StepTangent& step);
   StepTangent at(std::size_t step) const;
-  std::size_t size() const { return numbers_.size() / (2 + states_); }
+  std::size_t size() const { return first_.size(); }
 
  private:
-  std::size_t states_ = 0;  ///< of a damper
+  std::vector<std::size_t> first_;  ///< of a step among the numbers
   std::vector<double> numbers_;
 };
 

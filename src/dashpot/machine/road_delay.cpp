@@ -63,8 +63,7 @@ class FitsByDelay {
     options_.monitor.check();
     const InPlantSetup setup = at_factor(setup_, factor);
     const PlantCases cases = cases_of(setup, steps_);
-    const DamperUnknowns unknowns(
-        {law_, start_.scale, setup.drive_unit, OffsetMode::Record, options_.choices}, setup.kinds);
+    const DamperUnknowns unknowns(law_, start_.scale, setup, options_.choices);
     PlantResiduals residuals(setup, cases, unknowns, start_.plant, start_.scale);
     if (x_.empty()) x_ = residuals.start(start_.plant, start_.states);
 

@@ -8,6 +8,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/error.h"
+#include "dashpot/machine/damper_drive.h"
 #include "dashpot/machine/plant_at_line.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/linear_algebra.h"
@@ -213,8 +214,7 @@ SpectralLikelihood::Ride SpectralLikelihood::ride_of(const RiddenRecording& ridd
   ride.duration = static_cast<double>(ride.samples) * sample_time_;
   ride.first = static_cast<std::size_t>(std::ceil(std::max(kLowest * ride.duration, kFewestWaves)));
   ride.end = static_cast<std::size_t>(highest_ * ride.duration);
-  const auto [low, high] = std::ranges::minmax(ridden.motions.front(), {}, &DamperInput::current);
-  ride.steady = low.current == high.current;
+  ride.levels = held_levels(with_held_drives(*setup_, {ridden.recording, 1}));
   for (const PlantSensor& sensor : setup_->sensors)
     ride.shown.push_back(half_spectrum(
         std::span(ridden.recording->channel(sensor.channel).samples).first(ride.samples)));
@@ -272,13 +272,7 @@ InPlantSetup SpectralLikelihood::setup_at(std::span<const double> x) const {
 SpectralLikelihood::Force SpectralLikelihood::force_of(std::span<const double> x,
                                                        std::size_t ride) const {
   const auto& motions = (*rides_)[ride].motions;
-  std::vector<LawModel> models = laws(x);
-  if (prepared_[ride].steady)  // constant parameters are quicker
-    for (LawModel& model : models) {
-      std::vector<double> parameters(model.law().params.size());
-      model.parameters_at(motions.front().front().current, parameters.data());
-      model = LawModel::constant(model.law(), parameters);
-    }
+  const std::vector<LawModel> models = at_held_levels(laws(x), prepared_[ride].levels);
   Force found;
   for (std::size_t d = 0; d < motions.size(); ++d)
     if (!add_force(models[setup_->kinds.at(d)],

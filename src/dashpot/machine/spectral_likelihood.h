@@ -2,6 +2,7 @@
 #include <complex>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -105,9 +106,9 @@ class SpectralLikelihood final : public InPlantUnknowns {
   struct Ride {
     std::size_t samples = 0;  ///< without the last few, so that their count has small factors
     double duration = 0;      ///< s
-    std::size_t first = 0, end = 0;  ///< lines
-    bool steady = false;
-    std::vector<Lines> shown, inputs;  ///< per sensor; per input, of a road empty
+    std::size_t first = 0, end = 0;                  ///< lines
+    std::vector<std::optional<double>> levels = {};  ///< of the drive (held_levels)
+    std::vector<Lines> shown, inputs;                ///< per sensor; per input, of a road empty
   };
   void seek(std::string name, std::string unit, std::function<double*(ObserverNoise&)> place,
             double low, double high);

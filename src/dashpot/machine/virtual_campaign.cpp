@@ -50,12 +50,10 @@ class RandomPush {
 
 /// The inputs on the fine grid of the integrator.
 PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
-                        const VirtualCampaignOptions& options, double level, double push,
-                        std::uint64_t seed) {
+                        const VirtualCampaignOptions& options, double push, std::uint64_t seed) {
   PlantDriving driving{.sample_time = 1 / options.sample_rate / kFiner, .steps = kStepsOfFiner};
   driving.samples =
       static_cast<std::size_t>(std::lround(options.duration * options.sample_rate)) * kFiner + 1;
-  driving.current.assign(driving.points(), level);
   const double step = driving.sample_time / (2 * kStepsOfFiner);
   const std::vector<double> modes = natural_frequencies(linear_plant(plant));
   for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
@@ -97,17 +95,43 @@ PlantDriving driving_of(const InPlantSetup& setup, const Plant& plant,
   return driving;
 }
 
-/// The levels in one ride: each held for so long, none twice in a row.
-void switch_levels(const VirtualCampaignOptions& options, PlantDriving& driving) {
-  Random random(options.seed + 250);
+/// The levels in one ride: each held for so long, none twice in a row; channel after channel by
+/// its own chance.
+std::vector<double> switched_levels(const VirtualCampaignOptions& options,
+                                    const PlantDriving& driving, std::size_t channel) {
+  Random random(options.seed + 250 + channel);
   const double step = driving.sample_time / (2 * kStepsOfFiner);
   const auto held = std::max<std::size_t>(1, static_cast<std::size_t>(options.hold / step));
-  std::size_t level = 0;
-  for (std::size_t k = 0; k < driving.current.size(); ++k) {
+  std::size_t level = channel % options.levels.size();
+  std::vector<double> current(driving.points());
+  for (std::size_t k = 0; k < current.size(); ++k) {
     if (k > 0 && k % held == 0 && options.levels.size() > 1)
       level = (level + 1 + random.index(options.levels.size() - 1)) % options.levels.size();
-    driving.current[k] = options.levels[level];
+    current[k] = options.levels[level];
   }
+  return current;
+}
+
+/// What drives each damper in a ride: a level of the campaign, but for dampers that have one of
+/// their own. A channel is one level ahead of the one before it, so that the dampers differ.
+std::vector<std::vector<double>> currents_of(const InPlantSetup& setup,
+                                             const VirtualCampaignOptions& options,
+                                             std::size_t ride, const PlantDriving& driving) {
+  const std::vector<std::string> channels = setup.drive_channels();
+  std::vector<std::vector<double>> currents;
+  for (std::size_t d = 0; d < setup.dampers(); ++d) {
+    const DamperDrive& drive = setup.drive_of(d);
+    const auto channel =
+        static_cast<std::size_t>(std::ranges::find(channels, drive.channel) - channels.begin());
+    if (drive.channel.empty() && setup.drives.size() > 1)
+      currents.emplace_back(driving.points(), drive.level);
+    else if (options.hold > 0)
+      currents.push_back(switched_levels(options, driving, channel));
+    else
+      currents.emplace_back(driving.points(),
+                            options.levels[(ride + channel) % options.levels.size()]);
+  }
+  return currents;
 }
 
 /// A fine signal at each sample, `delay` seconds earlier; before the first one it stood still.
@@ -219,22 +243,24 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
   std::vector<VirtualRide> rides;
   for (std::size_t r = 0; r < (options.hold > 0 ? 1 : options.levels.size()); ++r) {
     options.monitor.check();
-    const double level = options.levels[r];
     const std::uint64_t seed = options.seed + 1000 * r;
 
-    // The run, from rest, in which the springs bear what the damper has at rest.
-    std::vector<std::unique_ptr<DamperModel>> mounted;
-    std::vector<const DamperModel*> models;
-    for (const DamperModel* damper : dampers) {
-      mounted.push_back(damper->with_offset(-force_at_rest(*damper, level)));
-      models.push_back(mounted.back().get());
-    }
+    // What moves it.
     const bool is_pushed = setup.inputs.front().place.kind == PlantInput::Force;
     const double usual = is_pushed ? 0.3 * plant.mass.front() : 1;  // N by kg, m/s^2
     PlantDriving driving =
-        driving_of(setup, plant, options, level, options.push > 0 ? options.push : usual, seed);
-    if (options.hold > 0) switch_levels(options, driving);
-    std::vector<double> state = equations.at_rest(models, level);
+        driving_of(setup, plant, options, options.push > 0 ? options.push : usual, seed);
+    driving.current = currents_of(setup, options, r, driving);
+
+    // The run, from rest, in which the springs bear what each damper has at rest.
+    std::vector<std::unique_ptr<DamperModel>> mounted;
+    std::vector<const DamperModel*> models;
+    for (std::size_t d = 0; d < dampers.size(); ++d) {
+      const double rest = force_at_rest(*dampers[d], driving.current[d].front());
+      mounted.push_back(dampers[d]->with_offset(-rest));
+      models.push_back(mounted.back().get());
+    }
+    std::vector<double> state = equations.at_rest(models, driving);
     std::vector<std::vector<double>> shown;
     bool goes = equations.run(models, driving, driving.samples, places, state, shown);
 
@@ -242,12 +268,13 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
     if (!goes) {
       driving.method = PlantMethod::StraightForce;
       driving.steps *= 2;
-      state = equations.at_rest(models, level);
+      state = equations.at_rest(models, driving);
       goes = equations.run(models, driving, driving.samples, places, state, shown);
     }
     if (!goes)
-      throw Error("the ride at " + format_number(level) + " " + to_string(setup.drive_unit),
-                  "diverges", "another damper, a lower level");
+      throw Error(
+          "the ride at " + format_number(options.levels[r]) + " " + to_string(setup.drive_unit),
+          "diverges", "another damper, a lower level");
 
     // As the sensors have it.
     VirtualRide ride;
@@ -282,11 +309,13 @@ std::vector<VirtualRide> virtual_campaign(const InPlantSetup& setup,
       add_channel(ride.recorded, sensor.channel, unit_of(sensor.place, plant),
                   with_noise(std::move(values), sensor.noise, noise));
     }
-    if (!setup.drive.empty()) {
+    for (const std::string& channel : setup.drive_channels()) {
+      std::size_t driven = 0;
+      while (setup.drive_of(driven).channel != channel) ++driven;
       std::vector<double> drive(samples);
       for (std::size_t k = 0; k < samples; ++k)
-        drive[k] = driving.current[2 * kStepsOfFiner * kFiner * k];
-      add_channel(ride.recorded, setup.drive, to_string(setup.drive_unit), std::move(drive));
+        drive[k] = driving.current[driven][2 * kStepsOfFiner * kFiner * k];
+      add_channel(ride.recorded, channel, to_string(setup.drive_unit), std::move(drive));
     }
     for (std::size_t k = 0; k < true_places.size(); ++k)
       add_channel(ride.truth, true_places[k].first, unit_of(true_places[k].second, plant),

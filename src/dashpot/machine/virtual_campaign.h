@@ -29,7 +29,7 @@ InPlantSetup with_grade(InPlantSetup setup, const SensorGrade& grade);
 struct VirtualCampaignOptions {
   double duration = 10;        ///< s, of a ride
   double sample_rate = 500;    ///< Hz
-  std::vector<double> levels;  ///< A or V: a ride at each
+  std::vector<double> levels;  ///< A or V: a ride at each; a second channel is one level ahead
   double hold = 0;   ///< s; above 0: one ride that holds a level so long, then another at random
   std::string road;  ///< as make_ground() has it, under the plants that stand on one
   double push = 0;   ///< rms of a random force, N, or ground acceleration, m/s^2; 0: a usual one

@@ -43,9 +43,9 @@ WatchedPlant as_stated(ObservedDampers dampers, InPlantSetup setup, const WatchO
   require_watchable(setup, options);
   assert(dampers.size() == setup.dampers());
   begin_unknowns(setup);
-  for (ObservedDamper& one : dampers)
-    one.model =
-        mounted(std::move(one.model), setup.drive.empty() ? setup.level : one.domain.current_min);
+  for (std::size_t d = 0; d < dampers.size(); ++d)
+    dampers[d].model =
+        mounted(std::move(dampers[d].model), resting_drive(setup.drive_of(d), dampers[d].domain));
   WatchedPlant watched{
       .dampers = std::move(dampers), .setup = std::move(setup), .level = options.level};
   for (const std::string& name : options.wears)

@@ -13,6 +13,7 @@
 #include "dashpot/damper/law_list.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/bench_start.h"
+#include "dashpot/machine/damper_drive.h"
 #include "dashpot/machine/more_unknowns.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_of_matrices.h"
@@ -77,9 +78,10 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
     if (recording.sample_time != recordings.front().sample_time)
       throw Error(recording.name, "has another sample rate than " + recordings.front().name,
                   "recordings of one rate");
+    const std::vector<std::string> drives = setup.drive_channels();
     for (const std::string& name : setup.channels()) {
       const auto [low, high] = std::ranges::minmax(recording.channel(name).samples);
-      if (low == high && name != setup.drive)
+      if (low == high && std::ranges::find(drives, name) == drives.end())
         throw Error(recording.name + ", " + name, "is constant: it tells nothing of the plant",
                     "a recording in which the plant moves");
     }
@@ -288,15 +290,16 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
                        .sample_time = told.sample_time,
                        .training = task.fitted[r].samples};
     const std::size_t dampers = seen.struts.size();
+    const auto motions = observed_motions(found, task.fitted[r], told);
     for (std::size_t d = 0; d < dampers; ++d) {
       const auto [force, deflection, velocity] = damper_quantities(d, dampers);
       trace.dampers.push_back({.strut = seen.struts[d],
                                .deflection = told.quantities[deflection].value,
                                .velocity = told.quantities[velocity].value,
                                .force = told.quantities[force].value});
+      for (const DamperInput& input : motions[d])
+        trace.dampers.back().current.push_back(input.current);
     }
-    const auto motions = observed_motions(found, task.fitted[r], told);
-    for (const DamperInput& input : motions.front()) trace.current.push_back(input.current);
     report.traces.push_back(std::move(trace));
   }
 }
@@ -447,19 +450,6 @@ InPlantSetup fit_along(const Task& task, const DamperUnknowns& unknowns, double 
   return likelihood.setup_at(found.x);
 }
 
-/// The drive's range in these recordings.
-std::pair<double, double> drive_range(const InPlantSetup& setup,
-                                      const std::vector<PlantRecording>& recordings) {
-  if (setup.drive.empty()) return {setup.level, setup.level};
-  double low = INFINITY, high = -INFINITY;
-  for (const PlantRecording& recording : recordings) {
-    const auto [least, greatest] = std::ranges::minmax(recording.channel(setup.drive).samples);
-    low = std::min(low, least);
-    high = std::max(high, greatest);
-  }
-  return {low, high};
-}
-
 /// All stages of a fit of the setup as it stands.
 InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
                                const std::vector<PlantRecording>& recordings,
@@ -468,8 +458,7 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
   InPlantReport report;
   report.road_measured = false;
   report.step_error = std::numeric_limits<double>::quiet_NaN();
-  const auto [low, high] = drive_range(setup, recordings);
-  require_drive(law, setup, low, high, options, report.warnings);
+  require_drive(law, setup, recordings, options, report.warnings);
   Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings), {}};
   task.fitted = fitted_parts(setup, recordings);
 
@@ -481,9 +470,8 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
   const DataScale size = data_scale(records, setup.drive_unit);
   const std::shared_ptr<const DamperModel> from_bench =
       fit_as_on_bench(law, setup, records, options);
-  const DamperUnknowns unknowns({from_bench ? from_bench->law_inside()->law() : law, size,
-                                 setup.drive_unit, OffsetMode::Record, options.choices},
-                                setup.kinds);
+  const DamperUnknowns unknowns(from_bench ? from_bench->law_inside()->law() : law, size, setup,
+                                options.choices);
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
   std::vector<double> law_numbers = unknowns.start();
   if (from_bench)
@@ -576,8 +564,8 @@ InPlantReport identify_without_road(const Law& law, const InPlantSetup& setup,
   require_setup(setup);
   require_tellable(setup, recordings);
   FitDoubts doubts;
-  InPlantSetup as_taken = setup;
-  InPlantReport report = fit_without_road(law, setup, recordings, options, doubts);
+  InPlantSetup as_taken = with_held_drives(setup, recordings);
+  InPlantReport report = fit_without_road(law, as_taken, recordings, options, doubts);
   if (report.has_models() && doubts.are_unlike)
     report = fit_unlike_ones(law, as_taken, recordings, options, std::move(report), doubts);
   if (report.has_models() && doubts.is_late)

@@ -37,6 +37,7 @@ constexpr const char* kObserverHeader = R"(/* @title@
 #define DAMPER_INPUTS @input_count@
 #define DAMPER_SENSORS @sensor_count@
 #define DAMPER_OUTPUTS @output_count@
+#define DAMPER_DAMPERS @damper_count@
 #define DAMPER_STATE_SIZE @size@
 #define DAMPER_SAMPLE_TIME @sample_time@ /* s, between two calls of damper_step */
 
@@ -104,7 +105,8 @@ std::string filter_code(const ObserverTables& t) {
 
   // The struct, in its own order.
   std::string sizes, own;
-  for (const int size : {t.plant, t.inputs, t.roads, t.dampers, t.errors, t.sensors, t.steps})
+  for (const int size :
+       {t.plant, t.inputs, t.drives, t.roads, t.dampers, t.errors, t.sensors, t.steps})
     sizes += std::to_string(size) + ", ";
   for (const int size : t.damper) own += (own.empty() ? "" : ", ") + std::to_string(size);
   return code + "static const int kDamper[] = {" + own +
@@ -126,14 +128,15 @@ std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
   for (std::size_t k = 0; k < kObserverTestSteps; ++k) {
     const double place = static_cast<double>(k);
 
-    // Inputs, the drive behind them, and sensors: sines.
+    // Inputs, the drives behind them, and sensors: sines.
     std::vector<double> now, measured;
     for (std::size_t u = 0; u < inputs; ++u)
       now.push_back((names.input_units[u] == "m"   ? 200 * t.way
                      : names.input_units[u] == "N" ? 0.2 * force
                                                    : 1) *
                     std::sin((0.05 + 0.02 * static_cast<double>(u)) * place));
-    now.push_back(0.5 + 0.5 * std::sin(0.02 * place));
+    for (int d = 0; d < t.drives; ++d)
+      now.push_back(0.5 + 0.5 * std::sin((0.02 + 0.01 * d) * place));
     for (std::size_t s = 0; s < sensors; ++s)
       measured.push_back(kLoud * std::sqrt(t.sensor_variance[s]) *
                          std::sin((0.06 + 0.03 * static_cast<double>(s)) * place));
@@ -176,7 +179,7 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
   const auto* law = model_as<LawModel>(damper);
   const std::string stem = law ? "observed" : "model";
   const std::size_t all = t.all(), inputs = std::max<std::size_t>(1, names.inputs.size()),
-                    size = all + all * all + static_cast<std::size_t>(t.inputs) + 1;
+                    size = all + all * all + static_cast<std::size_t>(t.inputs + t.drives);
   const Outputs outputs = outputs_of(observer, names);
   const std::string unit = to_string(names.drive_unit),
                     title = "Observer of a " + names.plant + " with the damper " + names.damper +
@@ -206,7 +209,9 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
       {"input_count", number(inputs)},
       {"sensor_count", number(names.sensors.size())},
       {"output_count", number(outputs.ports.size())},
+      {"damper_count", number(names.struts.size())},
       {"size", number(size)},
+      {"drive", CText::own(t.drives > 1 ? "drives[DAMPER_DAMPERS]" : "drive")},
       {"sample_time", CText::own(c_number(t.step * t.steps))}};
 
   // The source: the damper's model, the filter, its tables, the interface.
@@ -227,7 +232,8 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
   std::vector<CPort> ports = {
       {"input", "", "what moves the plant: " + listed(names.inputs, names.input_units), "inputs[#]",
        inputs},
-      {"drive", unit, t.dampers > 1 ? "of the dampers" : "of the damper", "drive"},
+      {"drive", unit, t.dampers > 1 ? "of the dampers" : "of the damper",
+       t.drives > 1 ? "drives[#]" : "drive", static_cast<std::size_t>(t.drives)},
       {"sensor", "", "what is measured: " + listed(names.sensors, names.sensor_units), "sensors[#]",
        names.sensors.size()}};
   const auto parts = [](const std::vector<std::string>& of, const std::vector<std::string>& units) {
@@ -237,26 +243,30 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
   };
   ports[0].parts = names.inputs.empty() ? std::vector<CPort::Part>{{"none", ""}}
                                         : parts(names.inputs, names.input_units);
+  if (t.drives > 1) ports[1].parts = parts(names.struts, std::vector(names.struts.size(), unit));
   ports[2].parts = parts(names.sensors, names.sensor_units);
-  return {.name = c_name(options.name.empty() ? names.damper + "_observer" : options.name),
-          .title = title,
-          .about = about,
-          .precision = options.c_precision(),
-          .header =
-              filled(kObserverHeader + std::string(c_text("observer_api.h")) + kCHeaderEnd, values),
-          .source = kObserverBegin +
-                    with_texts(code + sizes + "#include \"plant_filter.h\"\n" + filter_code(t)) +
-                    std::string(c_text("observer_api.c")),
-          .step = "damper_step(&model, &input, commands);",
-          .inputs = std::move(ports),
-          .commands = outputs.ports,
-          .state_size = size,
-          .sample_time = t.step * t.steps,
-          .range = 1,
-          .tolerance = options.c_precision() == CPrecision::Double ? 1e-9 : 1e-3,
-          .samples = observer_run(observer, names),
-          .scales = outputs.scales,
-          .version = options.version};
+  return {
+      .name = c_name(options.name.empty() ? names.damper + "_observer" : options.name),
+      .title = title,
+      .about = about,
+      .precision = options.c_precision(),
+      .header =
+          filled(kObserverHeader + std::string(c_text("observer_api.h")) + kCHeaderEnd, values),
+      .source =
+          kObserverBegin +
+          with_texts(code + sizes + "#include \"plant_filter.h\"\n" + filter_code(t)) +
+          filled(std::string(c_text("observer_api.c")),
+                 {{"drive", CText::own(t.drives > 1 ? "drives[k - kFilter.inputs]" : "drive")}}),
+      .step = "damper_step(&model, &input, commands);",
+      .inputs = std::move(ports),
+      .commands = outputs.ports,
+      .state_size = size,
+      .sample_time = t.step * t.steps,
+      .range = 1,
+      .tolerance = options.c_precision() == CPrecision::Double ? 1e-9 : 1e-3,
+      .samples = observer_run(observer, names),
+      .scales = outputs.scales,
+      .version = options.version};
 }
 
 }  // namespace dashpot

@@ -36,6 +36,7 @@ FilterWithDampers filter_of(const ObserverTables& t,
   FilterWithDampers f;
   static_cast<PlantFilter&>(f) = {.plant = t.plant,
                                   .inputs = t.inputs,
+                                  .drives = t.drives,
                                   .roads = t.roads,
                                   .dampers = t.dampers,
                                   .errors = t.errors,
@@ -109,16 +110,19 @@ PlantObserver::PlantObserver(ObserverTables tables,
   require(static_cast<std::size_t>(tables_.inputs), kMostObservedInputs, "inputs");
 }
 
-void PlantObserver::before_first(double drive, std::span<const double> about,
+void PlantObserver::before_first(std::span<const double> now, std::span<const double> about,
                                  std::span<double> estimate, std::span<double> covariance) const {
   constexpr double kKnown = 0.1;
   const std::size_t all = tables_.all();
   std::ranges::fill(estimate, 0.0);
   std::ranges::fill(covariance, 0.0);
   std::size_t own = tables_.own();
-  for (const auto& damper : dampers_) {
-    damper->rest({0, 0, drive}, estimate.subspan(own, damper->state_size()));
-    own += damper->state_size();
+  const FilterWithDampers f = filter_of(tables_, dampers_);
+  for (std::size_t d = 0; d < dampers_.size(); ++d) {
+    const int drive = filter_drive(&f, static_cast<int>(d));
+    dampers_[d]->rest({0, 0, now[static_cast<std::size_t>(drive)]},
+                      estimate.subspan(own, dampers_[d]->state_size()));
+    own += dampers_[d]->state_size();
   }
   std::ranges::copy(about, estimate.begin());
   const auto plant = static_cast<std::size_t>(tables_.plant);
@@ -133,7 +137,7 @@ void PlantObserver::before_first(double drive, std::span<const double> about,
 void PlantObserver::start(std::span<const double> now, std::span<const double> measured,
                           std::span<const double> about, std::span<double> estimate,
                           std::span<double> covariance, ObservedSample& sample) const {
-  before_first(now.back(), about, estimate, covariance);
+  before_first(now, about, estimate, covariance);
   const FilterWithDampers f = filter_of(tables_, dampers_);
   FilterSample told;
   filter_update(&f, now.data(), now.data(), measured.data(), estimate.data(), covariance.data(),
@@ -157,7 +161,7 @@ void PlantObserver::start_along(Known later, std::span<const double> now,
                                 std::span<const double> measured, std::span<const double> about,
                                 std::span<double> estimate, std::span<double> covariance,
                                 ObservedSample& sample) const {
-  before_first(now.back(), about, estimate, covariance);
+  before_first(now, about, estimate, covariance);
   FilterSample told;
   take_along(filter_of(tables_, dampers_), later, now, now, measured, estimate, covariance, told);
   keep(tables_, told, false, sample);

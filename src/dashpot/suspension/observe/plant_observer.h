@@ -18,7 +18,7 @@ constexpr std::size_t kMostObserved = 64, kMostObservedSensors = 12, kMostObserv
 
 /// The tables of a filter of a plant, as c_text/plant_filter.h names and orders them. SI.
 struct ObserverTables {
-  int plant = 0, inputs = 0, roads = 0, dampers = 1, errors = 0, sensors = 0, steps = 1;
+  int plant = 0, inputs = 0, drives = 1, roads = 0, dampers = 1, errors = 0, sensors = 0, steps = 1;
   double step = 0;  ///< s
   double road_keep = 1;
   std::vector<int> damper;  ///< numbers of each one's state
@@ -70,8 +70,8 @@ class PlantObserver {
   const ObserverTables& tables() const { return tables_; }
   const std::vector<std::shared_ptr<const DamperModel>>& dampers() const { return dampers_; }
 
-  /// The first sample. `now`: the measured inputs, then the drive; `measured`: per sensor; `about`:
-  /// the plant and its roads, where velocities are known to a tenth; empty: they are not.
+  /// The first sample. `now`: the measured inputs, then the drives; `measured`: per sensor;
+  /// `about`: the plant and its roads, where velocities are known to a tenth; empty: they are not.
   void start(std::span<const double> now, std::span<const double> measured,
              std::span<const double> about, std::span<double> estimate,
              std::span<double> covariance, ObservedSample& sample) const;
@@ -101,8 +101,8 @@ class PlantObserver {
                    std::span<const double> estimate, std::span<const double> covariance) const;
 
  private:
-  void before_first(double drive, std::span<const double> about, std::span<double> estimate,
-                    std::span<double> covariance) const;
+  void before_first(std::span<const double> now, std::span<const double> about,
+                    std::span<double> estimate, std::span<double> covariance) const;
 
   ObserverTables tables_;
   std::vector<std::shared_ptr<const DamperModel>> dampers_;

@@ -13,11 +13,11 @@ static inline void filter_advance(const PlantFilter* f, int d, const DamperInput
   OBSERVED_ADVANCE(from, to, dt, z);
 }
 
-/* The inputs with the drive behind them; one that is no number as it was. */
+/* The inputs with the drives behind them; one that is no number as it was. */
 static void observer_inputs(const damper_input* input, const double* before, double* now) {
   int k;
-  for (k = 0; k <= kFilter.inputs; ++k) {
-    const double value = (k < kFilter.inputs) ? input->inputs[k] : input->drive;
+  for (k = 0; k < filter_given(&kFilter); ++k) {
+    const double value = (k < kFilter.inputs) ? input->inputs[k] : input->@drive@;
     now[k] = (fabs(value) < 1e30) ? value : before[k];
   }
 }
@@ -40,8 +40,8 @@ void damper_reset(damper_model* model, const damper_input* input) {
   observer_inputs(input, before, before);
   still.displacement = 0;
   still.velocity = 0;
-  still.current = before[kFilter.inputs];
   for (k = 0; k < kFilter.dampers; ++k) {
+    still.current = before[filter_drive(&kFilter, k)];
     OBSERVED_REST(&still, &model->state[filter_own(&kFilter, k)]);
   }
   for (k = 0; k < FILTER_MOST; ++k) {
@@ -53,7 +53,7 @@ void damper_step(damper_model* model, const damper_input* input, double* outputs
   double* s = model->state;
   double* c = &model->state[FILTER_MOST];
   double* before = &model->state[FILTER_MOST + (FILTER_MOST * FILTER_MOST)];
-  double now[FILTER_MOST_INPUTS + 1];
+  double now[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS];
   FilterSample sample;
   int k;
   if (model->started == 0) {
@@ -76,7 +76,7 @@ void damper_step(damper_model* model, const damper_input* input, double* outputs
   for (k = 0; k < filter_error(&kFilter, 0); ++k) {
     outputs[(4 * kFilter.dampers) + k] = s[k];
   }
-  for (k = 0; k <= kFilter.inputs; ++k) {
+  for (k = 0; k < filter_given(&kFilter); ++k) {
     before[k] = now[k];
   }
 }

@@ -13,7 +13,8 @@
 
 typedef struct PlantFilter {
   int plant;                  /* coordinates and velocities: two per degree of freedom */
-  int inputs;                 /* that are measured; the drive of the dampers stands behind them */
+  int inputs;                 /* that are measured; the drives of the dampers stand behind them */
+  int drives;                 /* one of all dampers, or one for each */
   int roads;                  /* heights that nothing measures */
   int dampers;                /* at least one */
   int errors;                 /* of each damper's force, at least one */
@@ -80,6 +81,14 @@ static inline int filter_moving(const PlantFilter* f) { return filter_own(f, f->
 
 static inline int filter_all(const PlantFilter* f) { return filter_moving(f) + f->sensors; }
 
+/* What is given at a sample: the inputs and the drives behind them. */
+static inline int filter_given(const PlantFilter* f) { return f->inputs + f->drives; }
+
+/* Where the drive of damper d stands among these. */
+static inline int filter_drive(const PlantFilter* f, int d) {
+  return f->inputs + ((f->drives > 1) ? d : 0);
+}
+
 /* The motion of a damper and its drive. */
 static inline void filter_input(const PlantFilter* f, int d, const double* inputs,
                                 const double* slopes, const double* plant, DamperInput* at) {
@@ -88,7 +97,7 @@ static inline void filter_input(const PlantFilter* f, int d, const double* input
   int k;
   at->displacement = 0;
   at->velocity = 0;
-  at->current = inputs[f->inputs];
+  at->current = inputs[filter_drive(f, d)];
   for (k = 0; k < half; ++k) {
     at->displacement += way[k] * plant[k];
     at->velocity += way[k] * plant[half + k];
@@ -139,7 +148,7 @@ static inline void filter_linear(const PlantFilter* f, const double* from, const
 static inline void filter_slopes(const PlantFilter* f, const double* before, const double* now,
                                  double* slopes) {
   int k;
-  for (k = 0; k <= f->inputs; ++k) {
+  for (k = 0; k < filter_given(f); ++k) {
     slopes[k] = (now[k] - before[k]) / (f->step * (double)f->steps);
   }
 }
@@ -375,13 +384,14 @@ static inline double filter_look(const PlantFilter* f, int d, const double* c, c
  * start would give. */
 static inline void filter_move(const PlantFilter* f, const double* before, const double* now,
                                const double* c, double* s, double* transition) {
-  double slopes[FILTER_MOST_INPUTS + 1], from[FILTER_MOST_INPUTS + 1], to[FILTER_MOST_INPUTS + 1];
+  double slopes[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS],
+      from[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS], to[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS];
   double end[FILTER_MOST], start[FILTER_MOST_DAMPERS], after[FILTER_MOST_DAMPERS];
   FilterDamper over[FILTER_MOST_DAMPERS];
   const int moving = filter_moving(f);
   int d, j, k, step;
   filter_slopes(f, before, now, slopes);
-  for (k = 0; k <= f->inputs; ++k) {
+  for (k = 0; k < filter_given(f); ++k) {
     to[k] = before[k];
   }
   for (k = 0; k < moving; ++k) {
@@ -390,7 +400,7 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
     }
   }
   for (step = 1; step <= f->steps; ++step) {
-    for (k = 0; k <= f->inputs; ++k) {
+    for (k = 0; k < filter_given(f); ++k) {
       from[k] = to[k];
       to[k] = before[k] + (slopes[k] * f->step * (double)step);
     }
@@ -499,7 +509,8 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
 static inline void filter_expect(const PlantFilter* f, const double* before, const double* now,
                                  const double* measured, const double* s, const double* c,
                                  FilterSample* sample) {
-  double slopes[FILTER_MOST_INPUTS + 1], gradient[FILTER_MOST_DAMPERS * FILTER_MOST];
+  double slopes[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS],
+      gradient[FILTER_MOST_DAMPERS * FILTER_MOST];
   double force[FILTER_MOST_DAMPERS];
   const int moving = filter_moving(f), all = filter_all(f);
   int d, k, m;
@@ -601,7 +612,7 @@ static inline void filter_update(const PlantFilter* f, const double* before, con
  * that; its deflection and the rate of it. */
 static inline void filter_damper(const PlantFilter* f, int d, const double* before,
                                  const double* now, const double* s, const double* c, double* out) {
-  double slopes[FILTER_MOST_INPUTS + 1], gradient[FILTER_MOST];
+  double slopes[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS], gradient[FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
   DamperInput at;
   double variance = 0;
