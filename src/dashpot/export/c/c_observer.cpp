@@ -37,7 +37,7 @@ constexpr const char* kObserverHeader = R"(/* @title@
 #define DAMPER_INPUTS @input_count@
 #define DAMPER_SENSORS @sensor_count@
 #define DAMPER_OUTPUTS @output_count@
-#define DAMPER_DAMPERS @damper_count@
+#define DAMPER_DRIVES @drive_count@ /* of the dampers: one of all, or one each */
 #define DAMPER_STATE_SIZE @size@
 #define DAMPER_SAMPLE_TIME @sample_time@ /* s, between two calls of damper_step */
 
@@ -209,9 +209,8 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
       {"input_count", number(inputs)},
       {"sensor_count", number(names.sensors.size())},
       {"output_count", number(outputs.ports.size())},
-      {"damper_count", number(names.struts.size())},
+      {"drive_count", number(static_cast<std::size_t>(t.drives))},
       {"size", number(size)},
-      {"drive", CText::own(t.drives > 1 ? "drives[DAMPER_DAMPERS]" : "drive")},
       {"sample_time", CText::own(c_number(t.step * t.steps))}};
 
   // The source: the damper's model, the filter, its tables, the interface.
@@ -232,8 +231,8 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
   std::vector<CPort> ports = {
       {"input", "", "what moves the plant: " + listed(names.inputs, names.input_units), "inputs[#]",
        inputs},
-      {"drive", unit, t.dampers > 1 ? "of the dampers" : "of the damper",
-       t.drives > 1 ? "drives[#]" : "drive", static_cast<std::size_t>(t.drives)},
+      {"drive", unit, t.dampers > 1 ? "of the dampers" : "of the damper", "drives[#]",
+       static_cast<std::size_t>(t.drives)},
       {"sensor", "", "what is measured: " + listed(names.sensors, names.sensor_units), "sensors[#]",
        names.sensors.size()}};
   const auto parts = [](const std::vector<std::string>& of, const std::vector<std::string>& units) {
@@ -245,28 +244,25 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
                                         : parts(names.inputs, names.input_units);
   if (t.drives > 1) ports[1].parts = parts(names.struts, std::vector(names.struts.size(), unit));
   ports[2].parts = parts(names.sensors, names.sensor_units);
-  return {
-      .name = c_name(options.name.empty() ? names.damper + "_observer" : options.name),
-      .title = title,
-      .about = about,
-      .precision = options.c_precision(),
-      .header =
-          filled(kObserverHeader + std::string(c_text("observer_api.h")) + kCHeaderEnd, values),
-      .source =
-          kObserverBegin +
-          with_texts(code + sizes + "#include \"plant_filter.h\"\n" + filter_code(t)) +
-          filled(std::string(c_text("observer_api.c")),
-                 {{"drive", CText::own(t.drives > 1 ? "drives[k - kFilter.inputs]" : "drive")}}),
-      .step = "damper_step(&model, &input, commands);",
-      .inputs = std::move(ports),
-      .commands = outputs.ports,
-      .state_size = size,
-      .sample_time = t.step * t.steps,
-      .range = 1,
-      .tolerance = options.c_precision() == CPrecision::Double ? 1e-9 : 1e-3,
-      .samples = observer_run(observer, names),
-      .scales = outputs.scales,
-      .version = options.version};
+  return {.name = c_name(options.name.empty() ? names.damper + "_observer" : options.name),
+          .title = title,
+          .about = about,
+          .precision = options.c_precision(),
+          .header =
+              filled(kObserverHeader + std::string(c_text("observer_api.h")) + kCHeaderEnd, values),
+          .source = kObserverBegin +
+                    with_texts(code + sizes + "#include \"plant_filter.h\"\n" + filter_code(t)) +
+                    std::string(c_text("observer_api.c")),
+          .step = "damper_step(&model, &input, commands);",
+          .inputs = std::move(ports),
+          .commands = outputs.ports,
+          .state_size = size,
+          .sample_time = t.step * t.steps,
+          .range = 1,
+          .tolerance = options.c_precision() == CPrecision::Double ? 1e-9 : 1e-3,
+          .samples = observer_run(observer, names),
+          .scales = outputs.scales,
+          .version = options.version};
 }
 
 }  // namespace dashpot

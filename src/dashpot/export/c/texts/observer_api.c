@@ -17,7 +17,8 @@ static inline void filter_advance(const PlantFilter* f, int d, const DamperInput
 static void observer_inputs(const damper_input* input, const double* before, double* now) {
   int k;
   for (k = 0; k < filter_given(&kFilter); ++k) {
-    const double value = (k < kFilter.inputs) ? input->inputs[k] : input->@drive@;
+    const double value =
+        (k < kFilter.inputs) ? input->inputs[k] : input->drives[k - kFilter.inputs];
     now[k] = (fabs(value) < 1e30) ? value : before[k];
   }
 }

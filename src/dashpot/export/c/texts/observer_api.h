@@ -5,7 +5,7 @@ extern "C" {
 /* What is measured at a sample. */
 typedef struct damper_input {
   double inputs[DAMPER_INPUTS]; /* what moves the plant, as far as it is measured */
-  double @drive@; /* currents or voltages of the dampers */
+  double drives[DAMPER_DRIVES]; /* currents or voltages of the dampers */
   double sensors[DAMPER_SENSORS];
 } damper_input;
 
