@@ -177,7 +177,8 @@ void run(bool leans, std::size_t builds, double driven, const std::string& folde
 
     // On another road.
     const std::vector<VirtualRide> others = drive(car, damper, currents, 7000 + build);
-    const DamperModel* const models[] = {mean.get(), told.build.model.get(), law.model.get()};
+    const DamperModel* const models[] = {mean.get(), told.build.model.get(),
+                                         law.kinds.front().model.get()};
     for (std::size_t m = 0; m < std::size(models); ++m) {
       fmt::print("  force on another road, % of its span, at {} A:", fmt::join(currents, ", "));
       for (std::size_t k = 0; k < currents.size(); ++k) {

@@ -98,9 +98,9 @@ struct DayKind {
 
 /// A car that is watched.
 struct WatchedCar {
-  std::string text;  // on its days
-  double length;               // s, of a day
-  std::size_t every = 1;       // sample of 500 Hz that is recorded
+  std::string text;       // on its days
+  double length;          // s, of a day
+  std::size_t every = 1;  // sample of 500 Hz that is recorded
   bool is_half = false;
   WatchOptions options;
   std::vector<DayKind> kinds;
@@ -117,7 +117,8 @@ WatchedCar watched_car(const std::string& name) {
                 {"force -30 %", 0.3},
                 {"gas lost", 0, 0, false}}};
   if (name == "quarter") return car;
-  if (name != "half" && name != "body") throw Error("car", "'" + name + "' is none of them", "half");
+  if (name != "half" && name != "body")
+    throw Error("car", "'" + name + "' is none of them", "half");
   car.text = half_car_text(name == "half");
   car.length = 6;
   car.every = 2;
@@ -154,8 +155,7 @@ std::shared_ptr<const DamperModel> true_damper(const DayTruth& day, double less 
   const auto damper = std::make_shared<LawModel>(
       as_published.law(), parameters, as_published.drive_unit(), as_published.lag_rate());
   return std::make_shared<WornDamper>(
-      mounted(damper, 1),
-      std::vector<WornDamper::Amount>{{&find_wear("force", "bench"), -less}});
+      mounted(damper, 1), std::vector<WornDamper::Amount>{{&find_wear("force", "bench"), -less}});
 }
 
 PlantRecording as_recording(const VirtualRide& ride, const std::string& name) {
@@ -252,7 +252,7 @@ WatchedPlant prepared(const WatchedCar& car, Store& store) {
   if (!store.load("model")) {
     const InPlantReport report = workshop();
     const InPlantSetup setup = parse_in_plant_setup(car_text(true), "car");
-    store.save("model", format_model(found_damper(report, setup, 0.002)));
+    store.save("model", format_model(found_damper(report.kinds.front(), report, setup, 0.002)));
   }
   ModelFile file = parse_model(*store.load("model"), "model");
   const InPlantSetup setup = parse_in_plant_setup(car.text, "car");
@@ -300,7 +300,8 @@ std::vector<std::vector<WatchedDay>> days_of(const WatchedCar& car, const Store&
 /// What the charts need to know of the plant.
 WatchedPlant charted(const WatchedCar& car) {
   WatchedPlant watched{.setup = parse_in_plant_setup(car.text, "car"), .level = car.options.level};
-  for (const std::string& name : car.options.wears) watched.wears.push_back(&find_wear(name, "bench"));
+  for (const std::string& name : car.options.wears)
+    watched.wears.push_back(&find_wear(name, "bench"));
   return watched;
 }
 
@@ -446,8 +447,8 @@ void print_delays(const WatchedCar& car, const std::vector<std::vector<WatchedDa
       car.kinds[kind].name, stated, quantile(0.5), quantile(0.9), late.back(), early, kRuns);
   for (const auto& [name, times] : by) fmt::print(", {} {}", name, times);
   if (car.is_half)
-    fmt::print("; right damper {} of {}, another's alarm within {} days {}, fall told {:.3f}", right,
-               found, kFollows, followed, fall / found);
+    fmt::print("; right damper {} of {}, another's alarm within {} days {}, fall told {:.3f}",
+               right, found, kFollows, followed, fall / found);
   fmt::print("\n");
 }
 
