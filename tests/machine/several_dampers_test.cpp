@@ -8,6 +8,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_advice.h"
 #include "dashpot/machine/virtual_campaign.h"
@@ -286,8 +287,13 @@ std::vector<PlantRecording> rides_with_weak_rear(InPlantSetup setup, double seco
 TEST_CASE("several dampers: kinds that nobody stated are told apart" *
           doctest::test_suite("long")) {
   const auto rides = rides_with_weak_rear(half_car(), 5);
-  const InPlantOptions options{.starts = 2, .grade = ""};
-  const InPlantReport report = identify_in_plant(find_law("tanh_kwok"), half_car(), rides, options);
+  InPlantOptions options{.starts = 2, .grade = ""};
+  std::vector<std::string> stages;
+  options.monitor.on_progress = [&](const Progress& progress) { stages.push_back(progress.stage); };
+  const std::vector<InPlantFit> fits = identify_in_plant(
+      std::vector<std::string>{"tanh_kwok", "tanh_guo"}, half_car(), rides, options);
+  options.monitor = {};
+  const InPlantReport& report = fits[0].report;
   REQUIRE(report.kinds.size() == 2);
   CHECK(report.kinds[0].name == "front");
   CHECK(report.kinds[1].struts == std::vector<std::size_t>{1});
@@ -297,6 +303,14 @@ TEST_CASE("several dampers: kinds that nobody stated are told apart" *
   CHECK_CLOSE(found_of(report.plant, "mass").value, 690, 0.02, 0);
   CHECK_CLOSE(found_of(report.damper, "rear.alpha_b").value,
               found_of(report.damper, "front.alpha_b").value * 2 / 3, 0.1, 0);
+
+  // The next law begins with them so, and says it too.
+  CHECK(std::ranges::count(stages, "tanh_kwok, fit, round 1") == 2);
+  CHECK(std::ranges::count(stages, "tanh_guo, fit, round 1") == 1);
+  CHECK(fits[1].report.kinds.size() == 2);
+  CHECK(std::ranges::count_if(fits[1].report.warnings, [](const std::string& warning) {
+          return contains(warning, "the dampers are not alike");
+        }) == 1);
 
   // The plant as it was found says which is which.
   const InPlantSetup found = as_found(half_car(), report);

@@ -312,9 +312,10 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   const std::vector<PlantRecording> recordings = moving_parts(setup, as_recorded);
   std::vector<InPlantFit> fits;
 
-  // A fit that was kept, or a new one.
+  // A fit that was kept, or a new one; of dampers that are not alike once one law has found that.
+  InPlantSetup as_taken = setup;
   const auto add_fit = [&](const std::string& model, const std::string& along, auto&& make) {
-    const PlantFitStore::Request request{model, along, setup, recordings, options};
+    const PlantFitStore::Request request{model, along, as_taken, recordings, options};
     InPlantFit fit{.model = model, .report = {}};
     if (std::optional<InPlantReport> kept = store ? store->load(request) : std::nullopt) {
       fit.report = std::move(*kept);
@@ -327,10 +328,14 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
   };
   const auto fit_law = [&](const std::string& law) {
     add_fit(law, "", [&](const InPlantOptions& own) {
-      InPlantReport report = identify_in_plant(find_law(law), setup, recordings, own);
+      InPlantReport report = identify_in_plant(find_law(law), as_taken, recordings, own);
       report.noise = found_noise(setup, report);
+      if (as_taken.kinds.size() > setup.kinds.size())
+        report.warnings.push_back(unlike_found(as_taken));
       return report;
     });
+    if (fits.back().report.kinds.size() > as_taken.kinds.size())
+      as_taken = *with_unlike_dampers(as_taken);
   };
 
   // Laws first, one at least.
