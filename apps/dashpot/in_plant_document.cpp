@@ -9,6 +9,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "plant_advice_section.h"
+#include "stated_plant_section.h"
 
 namespace dashpot::cli {
 namespace {
@@ -278,13 +279,15 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
       section.tables.push_back(parameter_table("Damper", best.report.damper));
     if (!best.report.nuisances.empty())
       section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
-    if (best.report.road_measured) section.tables.back().audience = Audience::Files;
+    if (best.report.road_measured && !best.report.nuisances.empty())
+      section.tables.back().audience = Audience::Files;
     add_advice(best.report.advice, section);
     section.figures.insert(section.figures.begin(), sensor_figure(best.report, setup));
     section.remarks = knowable_lines(best.report);
     if (!left_out.empty()) section.remarks.push_back(left_out);
     document.sections.push_back(std::move(section));
   }
+  document.sections.push_back(stated_plant_section(setup));
   Value list = Value::array();
   for (const InPlantFit& fit : fits) list.push_back(to_json(fit.report, fit.model));
   document.data = Value::object({{"plant", setup.model->name}, {"fits", std::move(list)}});
