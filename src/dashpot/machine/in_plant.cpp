@@ -498,7 +498,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit
   // with a spring and a dashpot in the damper's place.
   PlantCases cases = make_cases(setup, recordings, options.steps);
-  require_drive(law, setup, recordings, options, report.warnings);
+  require_drive(law, setup, options, report.warnings);
   const PlantStart start = plant_start(setup, recordings, cases, options);
   report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law.h"
@@ -162,27 +161,19 @@ std::string unlike_found(const InPlantSetup& unlike) {
          "them together";
 }
 
-void require_drive(const Law& law, const InPlantSetup& setup,
-                   const std::vector<PlantRecording>& recordings, const InPlantOptions& options,
+void require_drive(const Law& law, const InPlantSetup& setup, const InPlantOptions& options,
                    std::vector<std::string>& warnings) {
   const bool follows =
       std::ranges::any_of(law.params, [](const ParamInfo& p) { return p.form != Form::Constant; });
   const auto asked = std::ranges::find_if(options.choices, [](const ParameterChoice& choice) {
     return choice.form && *choice.form != Form::Constant;
   });
-  for (std::size_t kind = 0; kind < setup.kinds.size(); ++kind) {
-    // The levels that drive the dampers of this kind.
-    std::set<double> levels;
-    for (const std::size_t damper : setup.kinds.struts(kind, setup.dampers()))
-      for (const PlantRecording& recording : recordings)
-        for (const double level : drive_samples(setup.drive_of(damper), recording))
-          levels.insert(level);
-    if (levels.size() > 1) continue;
-
-    // One alone.
+  const std::vector<std::optional<double>> levels = held_levels(setup);
+  for (std::size_t kind = 0; kind < levels.size(); ++kind) {
+    if (!levels[kind]) continue;
     const std::string& name = setup.kinds.names[kind];
     const std::string drive = "the drive" + (name.empty() ? "" : " of the damper " + name) +
-                              " is " + format_number(*levels.begin()) + " " +
+                              " is " + format_number(*levels[kind]) + " " +
                               to_string(setup.drive_unit) + " all along";
     if (asked != options.choices.end())
       throw Error("form of " + asked->parameter, "cannot be told: " + drive,

@@ -139,9 +139,8 @@ std::string unlike_found(const InPlantSetup& unlike);
 
 /// A current that never changes tells nothing of what the law does at others: asking for that is an
 /// error; a law that could tell it is kept to this one, and a warning says so, for each kind of
-/// damper.
-void require_drive(const Law& law, const InPlantSetup& setup,
-                   const std::vector<PlantRecording>& recordings, const InPlantOptions& options,
+/// damper. `setup`: with held drives (damper_drive.h).
+void require_drive(const Law& law, const InPlantSetup& setup, const InPlantOptions& options,
                    std::vector<std::string>& warnings);
 
 }  // namespace dashpot

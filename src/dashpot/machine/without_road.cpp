@@ -458,7 +458,7 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
   InPlantReport report;
   report.road_measured = false;
   report.step_error = std::numeric_limits<double>::quiet_NaN();
-  require_drive(law, setup, recordings, options, report.warnings);
+  require_drive(law, setup, options, report.warnings);
   Task task{law, setup, options, {}, first_numbers(setup, {}, report.warnings), {}};
   task.fitted = fitted_parts(setup, recordings);
 
