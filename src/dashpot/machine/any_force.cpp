@@ -88,14 +88,13 @@ std::optional<Look> look_about(const FitBesideNoise& fit, std::span<const double
   return look_at(fit, std::move(*end), std::move(noise), sources);
 }
 
-/// Whether a number of the plant differs from that beside the law by more than chance.
+/// Whether a number of the plant goes further from where the fit ended than by chance. The law's
+/// own step from there counts as none: it is the fit's number that is told.
 bool differs(const Jackknife& told, const Jackknife& beside_law, std::size_t count) {
   constexpr double kChance = 0.05;
   const double beyond = kChance / 2 / static_cast<double>(count);
   for (std::size_t k = 0; k < count; ++k)
-    if (std::abs(told.step()[k] - beside_law.step()[k]) >
-        told.half_of_difference(beside_law, k, beyond))
-      return true;
+    if (std::abs(told.step()[k]) > told.half_of_difference(beside_law, k, beyond)) return true;
   return false;
 }
 
@@ -119,25 +118,30 @@ std::optional<BesideAnyForce> beside_any_force(const FitBesideNoise& fit, EndOfS
   // what the law lacked was taken for noise.
   const PlantCases cases = fit.cases;
   std::vector<double> x(fit.x.begin(), fit.x.end());
-  for (int round = 0; round < kRounds; ++round) {
-    find_noise_left(fit, told, look);
+  const auto moved = [&] {
     std::vector<double> next = x;
-    bool stays = round > 0;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < count; ++k)
       next[k] = std::clamp(x[k] + told.step()[k], fit.problem.lower[k], fit.problem.upper[k]);
+    return next;
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<double> next = moved();
+    bool stays = round > 0;
+    for (std::size_t k = 0; k < count; ++k)
       stays = stays && std::abs(next[k] - x[k]) < kStays * told.half(k, kOne);
-    }
     if (stays) break;
+    find_noise_left(fit, told, look);
     std::optional<Look> there = look_about(fit, next, look.sources);
     if (!there) break;
-    x = std::move(next);
+    x = next;
     look = std::move(*there);
     told = told_by(look, fit.threads);
   }
   fit.cases = cases;
 
-  std::vector<double> way;
-  for (std::size_t k = 0; k < count; ++k) way.push_back(x[k] + told.step()[k] - fit.x[k]);
+  std::vector<double> way = moved();
+  way.resize(count);
+  for (std::size_t k = 0; k < count; ++k) way[k] -= fit.x[k];
   return BesideAnyForce{std::move(way), std::move(told)};
 }
 
@@ -167,8 +171,10 @@ std::string told_beside_any_force(const BesideAnyForce& found, const FitBesideNo
       furthest = number.name;
     }
   }
-  std::string words = "this law is not the damper's: whatever its force is, the sensors tell " +
-                      join(numbers, ", ") + "; intervals reach to there";
+  std::string words =
+      "this law is not the damper's, or what is stated of the plant is not so: whatever the "
+      "damper's force is, the sensors tell " +
+      join(numbers, ", ") + "; intervals reach to there";
   if (!furthest.empty())
     words += ", and " + format_number(100 * most, 2) + " % of that of " + furthest +
              " comes from what the law lacks";

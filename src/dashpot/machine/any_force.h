@@ -13,19 +13,19 @@ namespace dashpot {
 //
 // A law of another structure than the damper's leaves a force that follows the motion, and so bends
 // the numbers of the plant. Where there are more sensors than dampers, some of what they show at
-// each frequency depends on no damper's force: of a quarter car the sum of both bodies' inertia,
-// which is the tyre's force. So the sensors are weighed as if the forces were random and ten times
-// what they are, which leaves that alone. The plant is linear but for its dampers: what a force
-// shows is along the same direction whatever is thought of the damper. This estimate is wider than
-// that beside the law, and leans by no law; both agree within chance where the law is the damper's
-// (J. A. Hausman, Econometrica 46 (1978) 1251-1271).
+// each frequency depends on no damper's force: of a quarter car what both bodies' inertia adds up
+// to, which is the tyre's force. So the sensors are weighed as if errors of the forces were ten
+// times what the forces are (input_noise.h), which leaves that alone. The plant is linear but for
+// its dampers, so that it shows a force in the same directions whatever stands for the damper.
+// These numbers lean by no law; those beside the law are the more certain ones where the law is the
+// damper's, and both agree within chance there (J. A. Hausman, Econometrica 46 (1978) 1251-1271).
 
 struct BesideAnyForce {
   std::vector<double> way;  ///< per unknown of the plant: from the fit to what the sensors tell
   Jackknife told;           ///< how certain they are there, beside the unknowns that are no law's
 };
 
-/// What a fit beside the noise of its inputs is looked at with.
+/// A fit beside the noise of its inputs, where it ended.
 struct FitBesideNoise {
   const InPlantSetup& setup;
   const std::vector<PlantRecording>& recordings;
@@ -34,7 +34,7 @@ struct FitBesideNoise {
   const PlantCases& as_measured;
   PlantCases& cases;  ///< those of the residuals, without the likely noise of the inputs
   const PlantResiduals& residuals;
-  const std::vector<RecordingNoise>& noise;
+  const std::vector<RecordingNoise>& noise;  ///< of each recording, from these sources
   const NoiseSources& sources;
   double force = 0;  ///< N: of the dampers, its size
   int threads = 0;
