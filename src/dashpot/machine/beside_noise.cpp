@@ -7,11 +7,8 @@
 #include <numeric>
 #include <optional>
 
-#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
-#include "dashpot/machine/between_samples.h"
 #include "dashpot/numerics/distributions.h"
-#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
