@@ -1,10 +1,13 @@
 #include "dashpot/machine/input_noise.h"
 
+#include <array>
 #include <numbers>
+#include <numeric>
 
 #include "dashpot/base/random.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
+#include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/numerics/distributions.h"
@@ -142,6 +145,47 @@ TEST_CASE("input noise: what a setup states stays as it is stated") {
   CHECK(found.uncertainty[3] == 0);
 }
 
+TEST_CASE(
+    "input noise: weighed beside any force, rows tell nothing of a force and all else as ever") {
+  constexpr std::size_t kSamples = 1000;
+  InPlantSetup setup = car_on_measured_road(1e-3);
+  std::vector<RecordingNoise> recordings;
+  recordings.emplace_back(setup, StandIn{2000, 1500}, 1 / kRate, kSamples);
+  RecordingNoise& noise = recordings.front();
+  Random random(8);
+  std::vector<double> force(kSamples);
+  for (double& value : force) value = random.normal();
+  std::vector<double> rows(noise.lines() * noise.rows_per_line());
+  noise.put_forces(std::array{std::span<const double>(force)}, rows);
+
+  // Forces of 100 N beside noise that is known are plain to see, and not beside forces of any size.
+  for (double& value : rows) value *= 100;
+  const auto seen_beside = [&](double deviation) {
+    noise.weigh_by({.sensors = {0.05, 0.5, 2e-4}, .inputs = {1e-3}, .force = {deviation, 0, 0}});
+    std::vector<double> white = rows;
+    noise.whiten(white);
+    return std::inner_product(white.begin(), white.end(), white.begin(), 0.0);
+  };
+  CHECK(seen_beside(0) > 20 * static_cast<double>(noise.lines()));
+  CHECK(seen_beside(1e5) < 1e-3 * static_cast<double>(noise.lines()));
+
+  // Samples of the noise itself come out white, of variance 1; two of the three directions are left
+  // beside any force, and the rows that were given come back as what is shown beyond the sensors.
+  noise.weigh_by({.sensors = {0.05, 0.5, 2e-4}, .inputs = {0}, .force = {0, 0, 0}});
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i] = std::array{0.05, 0.5, 2e-4}[i % 6 / 2] * random.normal();
+  std::vector<double> white = rows;
+  noise.whiten(white);
+  CHECK_CLOSE(std::inner_product(white.begin(), white.end(), white.begin(), 0.0),
+              static_cast<double>(rows.size()), 0.1, 0);
+  noise.set_beyond(rows);
+  const NoiseFound found = find_noise(
+      recordings, setup, {.sensors = {0.05, 0.5, 2e-4}, .inputs = {1e-3}, .force = {1e5, 1, 1}}, 1,
+      ForceErrors::Known);
+  CHECK_CLOSE(found.sources.force[0], 1e5, 1e-12, 0);
+  CHECK(found.uncertainty[4] == 0);
+}
+
 TEST_CASE("in plant: a road measured with 1 mm of noise biases neither tyre nor mass" *
           doctest::test_suite("long")) {
   // The truth is a tanh, the law an arctan; nothing is said of any noise.
@@ -235,12 +279,57 @@ TEST_CASE(
   CAPTURE(mass.high);
   CHECK(mass.value < 386);
   CHECK(mass.high - mass.value > 1.5 * (mass.value - mass.low));
-  CHECK_CLOSE(mass.high, 387, 5e-4, 0);
+  CHECK(mass.high > 387);
+  CHECK_CLOSE(mass.high, 387, 0.01, 0);
 
   // A law that has one is not told so.
   const InPlantReport with_spring = identified_by("tanh_kwok");
   CHECK_FALSE(told(with_spring));
   CHECK_CLOSE(named_in(with_spring.plant, "sprung_mass").value, 387, 0.01, 0);
+}
+
+TEST_CASE(
+    "in plant: where the law lacks what is no spring and no dashpot, intervals reach to what the "
+    "sensors tell beside any force" *
+    doctest::test_suite("long")) {
+  // The truth has a hysteresis and a dashpot in series, the law a tanh along velocity: the tyre
+  // damping comes out too small by a tenth, and the law's own interval ends at 284 N*s/m.
+  InPlantSetup setup = car_on_measured_road(2e-4);
+  setup.unknown = {{"sprung_mass", 100, 1000, 300},
+                   {"tyre_stiffness", 1e5, 1e6, 2e5},
+                   {"tyre_damping", 0, 10000, 500}};
+  for (PlantSensor& sensor : setup.sensors) sensor.noise = 0;
+  setup.inputs.front().noise = 0;
+  const auto identified_in_car_with = [&](const char* truth, double voltage) {
+    const LawModel all = load_parameters(truth);
+    std::vector<double> parameters(all.law().params.size());
+    all.parameters_at(voltage, parameters.data());
+    const PlantRecording ride =
+        ride_of(car_on_measured_road(2e-4), LawModel::constant(all.law(), parameters), 16);
+    return identify_in_plant(find_law("tanh_kwok"), setup, {ride}, {.starts = 2, .grade = ""});
+  };
+  const auto told = [](const InPlantReport& report) {
+    return std::ranges::any_of(report.warnings, [](const std::string& warning) {
+      return contains(warning, "whatever the damper's force is, the sensors tell");
+    });
+  };
+  const InPlantReport report = identified_in_car_with("spencer1997", 2);
+  REQUIRE(report.has_models());
+  CHECK(told(report));
+  for (const auto& [name, value] :
+       NamedValues{{"sprung_mass", 387}, {"tyre_stiffness", 295200}, {"tyre_damping", 300}}) {
+    const FittedParameter& p = named_in(report.plant, name);
+    CAPTURE(name);
+    CAPTURE(p.value);
+    CAPTURE(p.low);
+    CAPTURE(p.high);
+    CHECK(p.low <= value);
+    CHECK(p.high >= value);
+    CHECK(p.high - p.low < 0.25 * value);
+  }
+
+  // Where the law is the damper's nothing is told.
+  CHECK_FALSE(told(identified_in_car_with("kwok2006", 1)));
 }
 
 TEST_CASE("in plant: a ride in which nothing is told ends without a model, and says so") {

@@ -75,3 +75,19 @@ TEST_CASE("jackknife: from scores that do not add up to 0 it steps to where they
   CHECK_CLOSE(from_near.step()[0], 0, 0, 1e-12);
   CHECK_CLOSE(from_far.covariance()[0], from_near.covariance()[0], 1e-12, 0);
 }
+
+TEST_CASE("jackknife: of a difference of two estimates from the same blocks, pair by pair") {
+  // Two means of five pairs about them; of two means that are one the difference is 0.
+  const std::array<double, 5> left = {3, -1, 2, -4, 0}, other = {2, -2, 1, -3, 2};
+  std::vector<BlockOfData> blocks, others;
+  double squares = 0;
+  for (std::size_t b = 0; b < left.size(); ++b) {
+    blocks.push_back({{1}, {left[b]}});
+    others.push_back({{1}, {other[b]}});
+    squares += std::pow(left[b] - other[b], 2);
+  }
+  const Jackknife mean(blocks, 1), of_others(others, 1);
+  CHECK_CLOSE(mean.half_of_difference(of_others, 0, 0.01),
+              students_t_quantile(4, 0.99) * std::sqrt(squares / 4 / 5), 1e-12, 0);
+  CHECK(mean.half_of_difference(mean, 0) == 0);
+}

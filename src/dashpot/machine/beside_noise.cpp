@@ -7,11 +7,8 @@
 #include <numeric>
 #include <optional>
 
-#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
-#include "dashpot/machine/between_samples.h"
 #include "dashpot/numerics/distributions.h"
-#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
@@ -31,80 +28,6 @@ NoiseSources first_noise(const InPlantSetup& setup, const PlantCases& cases,
   }
   first.force.assign(force_memories().size(), kShare * scale.force);
   return first;
-}
-
-/// Each recording in free run about x, and what it shows beyond its sensors.
-std::vector<InPlantTrace> traces_at(const PlantResiduals& residuals, std::span<const double> x,
-                                    int threads) {
-  std::vector<SensorFigures> figures;
-  std::vector<InPlantTrace> traces;
-  residuals.describe(x, figures, traces, threads);
-  return traces;
-}
-
-/// The noise of each recording about these traces; empty where a motion tells no spring from a
-/// dashpot.
-std::vector<RecordingNoise> noise_about(const InPlantSetup& setup, const PlantCases& cases,
-                                        const std::vector<InPlantTrace>& traces, int threads) {
-  std::vector<std::optional<RecordingNoise>> found(traces.size());
-  parallel_for(traces.size(), threads, [&](std::size_t c) {
-    const InPlantTrace& trace = traces[c];
-    const std::size_t first = cases.all[c].first, count = trace.training - first;
-
-    // The spring and the dashpot along this motion, of all dampers together.
-    std::vector<DamperInput> motion;
-    std::vector<double> force;
-    for (const DamperTrace& damper : trace.dampers)
-      for (std::size_t k = first; k < trace.training; ++k) {
-        motion.push_back({damper.deflection[k], damper.velocity[k], damper.current[k]});
-        force.push_back(damper.force[k]);
-      }
-    const auto stand_in = stand_in_of(motion, force);
-    if (!stand_in) return;
-    found[c].emplace(setup, *stand_in, trace.sample_time, count);
-
-    // What is shown beyond the sensors.
-    std::vector<std::vector<double>> beyond(setup.sensors.size(), std::vector<double>(count));
-    for (std::size_t s = 0; s < beyond.size(); ++s)
-      for (std::size_t k = 0; k < count; ++k)
-        beyond[s][k] = trace.modelled[s][first + k] - trace.measured[s][first + k];
-    found[c]->set_beyond(beyond);
-  });
-  std::vector<RecordingNoise> all;
-  for (std::optional<RecordingNoise>& one : found) {
-    if (!one) return {};
-    all.push_back(std::move(*one));
-  }
-  return all;
-}
-
-/// The recordings with inputs from which the likely noise of their sensors is taken.
-PlantCases without_noise(const PlantCases& as_measured, const InPlantSetup& setup,
-                         const std::vector<PlantRecording>& recordings,
-                         const std::vector<RecordingNoise>& noise, int threads) {
-  PlantCases cases = as_measured;
-  parallel_for(cases.all.size(), threads, [&](std::size_t c) {
-    PlantCase& one = cases.all[c];
-    const std::vector<std::vector<double>> likely = noise[c].likely_inputs();
-    for (std::size_t u = 0; u < setup.inputs.size(); ++u) {
-      std::vector<double> input = recordings[c].channel(setup.inputs[u].channel).samples;
-      for (std::size_t k = 0; k < likely[u].size(); ++k) input[one.first + k] -= likely[u][k];
-      FinerSignal finer = band_limited(input, one.driving.sample_time, one.driving.stride());
-      one.driving.value[u] = std::move(finer.value);
-      one.driving.rate[u] = std::move(finer.rate);
-    }
-  });
-  return cases;
-}
-
-/// Takes from what was measured what the noise of the inputs shows in the model: so the residuals
-/// stay those of the inputs as they were measured, and the sensitivities are those without noise.
-void keep_residuals(const std::vector<InPlantTrace>& as_measured,
-                    const std::vector<InPlantTrace>& without, PlantCases& cases) {
-  for (std::size_t c = 0; c < cases.all.size(); ++c)
-    for (std::size_t s = 0; s < cases.all[c].measured.size(); ++s)
-      for (std::size_t k = 0; k < cases.all[c].measured[s].size(); ++k)
-        cases.all[c].measured[s][k] -= as_measured[c].modelled[s][k] - without[c].modelled[s][k];
 }
 
 /// How far the first `count` unknowns went, in their standard deviations; the furthest.
@@ -149,24 +72,6 @@ LeastSquaresReport solve_until_near(const LeastSquaresProblem& problem, std::vec
   return solved;
 }
 
-/// The columns and residuals of a problem at the end of its search.
-struct EndOfSearch {
-  std::vector<double> residuals;
-  std::vector<std::vector<double>> columns;  ///< empty: of an unknown that is fixed
-};
-
-EndOfSearch end_of(const LeastSquaresProblem& problem, const LeastSquaresReport& solved) {
-  EndOfSearch end{std::vector<double>(problem.residuals), {}};
-  std::vector<double*> places;
-  end.columns.resize(solved.x.size());
-  for (std::size_t k = 0; k < solved.x.size(); ++k) {
-    if (problem.lower[k] < problem.upper[k]) end.columns[k].resize(problem.residuals);
-    places.push_back(end.columns[k].empty() ? nullptr : end.columns[k].data());
-  }
-  problem.jacobian(solved.x, end.residuals, places);
-  return end;
-}
-
 /// What the damper may show beside its law: a force that follows its deflection, or its velocity.
 struct MoreForce {
   const char *name, *unit;
@@ -207,73 +112,31 @@ double own_share(const std::vector<double>& column, const EndOfSearch& end,
   return length > 0 ? 1 - spread.variance(0, products) / length : 0;
 }
 
-/// What pieces of time tell, in which what was left is known: `length` samples each or little more
-/// or less, two of a recording at least.
-std::vector<BlockOfData> pieces_of(const EndOfSearch& end, const std::vector<RecordingNoise>& noise,
-                                   double length, int threads) {
-  const std::size_t n = end.columns.size();
-  std::vector<BlockOfData> pieces;
-  for (std::size_t c = 0, at = 0; c < noise.size(); ++c) {
-    // Columns and residuals as samples.
-    const std::size_t count = noise[c].lines() * noise[c].rows_per_line();
-    const auto samples_of = [&](const std::vector<double>& rows) {
-      return noise[c].samples_of(std::span(rows).subspan(at, count));
-    };
-    std::vector<std::vector<std::vector<double>>> columns(n);
-    parallel_for(n, threads, [&](std::size_t k) {
-      if (!end.columns[k].empty()) columns[k] = samples_of(end.columns[k]);
-    });
-    const std::vector<std::vector<double>> left = samples_of(end.residuals);
-    at += count;
-
-    // Their products in each piece.
-    const auto samples = static_cast<double>(noise[c].samples());
-    const auto own = static_cast<std::size_t>(std::max(2.0, std::round(samples / length)));
-    const std::size_t before = pieces.size();
-    pieces.resize(before + own);
-    parallel_for(own, threads, [&](std::size_t piece) {
-      const std::size_t first = piece * noise[c].samples() / own,
-                        behind = (piece + 1) * noise[c].samples() / own;
-      const auto along = [&](const auto& a, const auto& b) {
-        double sum = 0;
-        for (std::size_t s = 0; s < a.size() && s < b.size(); ++s)
-          for (std::size_t i = first; i < behind; ++i) sum += a[s][i] * b[s][i];
-        return sum;
-      };
-      BlockOfData one{std::vector<double>(n * n), std::vector<double>(n)};
-      for (std::size_t k = 0; k < n; ++k) {
-        one.score[k] = along(columns[k], left);
-        for (std::size_t m = 0; m <= k; ++m)
-          one.information[k * n + m] = one.information[m * n + k] = along(columns[k], columns[m]);
-      }
-      pieces[before + piece] = std::move(one);
-    });
-  }
-  return pieces;
-}
-
-/// How certain the unknowns are at the end of a search beside the noise, and whether the damper
-/// shows more than its law has.
-void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& solved,
-                 const PlantCases& cases, const PlantResiduals& residuals, int threads,
+/// How certain the unknowns are at the end of a search beside the noise, where the plant's numbers
+/// go beside any force once they stay beside the law, and whether the damper shows more than its
+/// law has.
+void tell_spread(const FitBesideNoise& at, const LeastSquaresReport& solved, bool stays,
                  NoisyFit& fit) {
-  constexpr double kPieces = 24, kOwnShare = 0.01, kChance = 0.01;
+  constexpr double kOwnShare = 0.01, kChance = 0.01;
   const std::size_t n = solved.x.size();
-  double samples = 0;
-  for (const RecordingNoise& one : fit.noise) samples += static_cast<double>(one.samples());
+  std::optional<EndOfSearch> found = end_of(at.problem, solved.x);
+  if (!found) return;
+  EndOfSearch end = std::move(*found);
 
   // Of the unknowns alone.
   const std::vector<double> ones(solved.part_matrices.size(), 1.0);
   fit.spread = covariance(solved.part_matrices, ones, n);
-  EndOfSearch end = end_of(problem, solved);
-  fit.alone.emplace(pieces_of(end, fit.noise, samples / kPieces, threads), n);
+  fit.alone.emplace(pieces_of(end, fit.noise, at.threads), n);
+
+  // Beside any force.
+  const std::vector<InPlantTrace> traces = traces_at(at.residuals, solved.x, at.threads);
+  if (stays) fit.any_force = beside_any_force(at, end, *fit.alone);
 
   // Beside what the law cannot make.
-  const std::vector<InPlantTrace> traces = traces_at(residuals, solved.x, threads);
   std::vector<const MoreForce*> asked;
   std::vector<std::vector<double>> columns;
   for (const MoreForce& more : kMore) {
-    columns.push_back(column_of(more, problem, cases, residuals, traces, fit.noise));
+    columns.push_back(column_of(more, at.problem, at.cases, at.residuals, traces, fit.noise));
     if (own_share(columns.back(), end, fit.spread) > kOwnShare)
       asked.push_back(&more);
     else
@@ -284,7 +147,7 @@ void tell_spread(const LeastSquaresProblem& problem, const LeastSquaresReport& s
   fit.with_more.reset();
   if (asked.empty()) return;
   std::ranges::move(columns, std::back_inserter(end.columns));
-  Jackknife with_more(pieces_of(end, fit.noise, samples / kPieces, threads), n + asked.size());
+  Jackknife with_more(pieces_of(end, fit.noise, at.threads), n + asked.size());
   const double one[] = {1};
   for (std::size_t k = 0; k < asked.size(); ++k) {
     const double value = with_more.step()[n + k];
@@ -358,9 +221,21 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
       }
       cases = std::move(without);
     }
-    if (has_enough_steps || turn + 1 == kTurns)
-      tell_spread(problem, solved, cases, residuals, options.threads, fit);
     stays = has_enough_steps && way < kStays;
+    const FitBesideNoise at{.setup = setup,
+                            .recordings = recordings,
+                            .problem = problem,
+                            .x = solved.x,
+                            .as_measured = fit.cases,
+                            .cases = cases,
+                            .residuals = residuals,
+                            .noise = fit.noise,
+                            .sources = fit.found.sources,
+                            .force = scale.force,
+                            .threads = options.threads};
+    if (has_enough_steps || turn + 1 == kTurns) tell_spread(at, solved, stays, fit);
+    if (fit.any_force)
+      report.warnings.push_back(told_beside_any_force(*fit.any_force, at, *fit.alone));
   }
   report.warnings.insert(report.warnings.end(), fit.more.begin(), fit.more.end());
   if (fit.noise.empty())
@@ -380,14 +255,16 @@ Reach reach_of(const NoisyFit& fit) {
   return [&fit](std::size_t first, std::span<const double> weights) {
     const double half = fit.alone->half(first, weights);
     double below = half, above = half;
-    if (fit.with_more) {
-      const double other = fit.with_more->half(first, weights);
+    const auto reach = [&](const Jackknife& other, const std::vector<double>& ways) {
       double way = 0;
-      for (std::size_t k = 0; k < weights.size(); ++k)
-        way += weights[k] * fit.with_more->step()[first + k];
-      below = std::max(below, other - way);
-      above = std::max(above, other + way);
-    }
+      for (std::size_t k = 0; k < weights.size(); ++k) way += weights[k] * ways[first + k];
+      const auto [low, high] = reach_to(half, way, other.half(first, weights));
+      below = std::max(below, low);
+      above = std::max(above, high);
+    };
+    if (fit.with_more) reach(*fit.with_more, fit.with_more->step());
+    if (fit.any_force && first < fit.any_force->way.size())
+      reach(fit.any_force->told, fit.any_force->way);
     return std::pair(below, above);
   };
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/machine/any_force.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/input_noise.h"
 #include "dashpot/machine/plant_residuals.h"
@@ -20,8 +21,9 @@ struct NoisyFit {
   PlantCases cases;                   ///< with the inputs as they were measured
   std::vector<RecordingNoise> noise;  ///< by which the residuals are weighed; empty: no second part
   NoiseFound found;
-  Covariance spread;               ///< of the unknowns
-  std::optional<Jackknife> alone;  ///< what it comes from
+  Covariance spread;                        ///< of the unknowns
+  std::optional<Jackknife> alone;           ///< what it comes from
+  std::optional<BesideAnyForce> any_force;  ///< where the law is shown not to be the damper's
   /// Behind the unknowns what the damper shows beside the law, where that is more than chance.
   std::optional<Jackknife> with_more;
   std::vector<std::string> more;  ///< the same in words
@@ -38,7 +40,8 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
                                       InPlantReport& report);
 
 /// The intervals of a fit beside noise, by Student's t; where the damper shows more than the law
-/// has, they reach to where the numbers would go with that. Empty where there was no second part.
+/// has, they reach to where the numbers would go with that, and those of the plant to where they go
+/// beside any force. Empty where there was no second part.
 Reach reach_of(const NoisyFit& fit);
 
 /// What was found of the noise, with its intervals, as nuisances.

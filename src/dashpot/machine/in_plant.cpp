@@ -525,6 +525,7 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                   .found = {},
                   .spread = {},
                   .alone = {},
+                  .any_force = {},
                   .with_more = {},
                   .more = {}};
   const auto is_finite = [&] {

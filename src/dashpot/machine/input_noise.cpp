@@ -32,13 +32,13 @@ void set_deviations(const std::vector<double>& variances, NoiseSources& sources)
     for (double& deviation : *list) deviation = std::sqrt(variances[j++]);
 }
 
-/// Those that the setup states.
-std::vector<bool> stated_sources(const InPlantSetup& setup) {
+/// Those that the setup states, and errors of the force where these are known.
+std::vector<bool> stated_sources(const InPlantSetup& setup, ForceErrors errors) {
   std::vector<bool> stated;
   for (const PlantSensor& sensor : setup.sensors) stated.push_back(sensor.noise > 0);
   for (const PlantInputChannel& input : setup.inputs)
     stated.push_back(input.noise > 0 || !input.follows.empty());
-  stated.resize(stated.size() + force_memories().size(), false);
+  stated.resize(stated.size() + force_memories().size(), errors == ForceErrors::Known);
   return stated;
 }
 
@@ -103,6 +103,12 @@ void RecordingNoise::set_beyond(const std::vector<std::vector<double>>& beyond) 
     const std::vector<Complex> lines = half_spectrum(std::span(beyond[s]).first(samples_));
     for (std::size_t l = 0; l < lines_; ++l) beyond_[l * sensors_ + s] = scale * lines[l + 1];
   }
+}
+
+void RecordingNoise::set_beyond(std::span<const double> rows) {
+  beyond_.resize(lines_ * sensors_);
+  for (std::size_t i = 0; i < beyond_.size(); ++i)
+    beyond_[i] = Complex(rows[2 * i], rows[2 * i + 1]) / std::numbers::sqrt2;
 }
 
 /// The density of a source at a line by that of white samples of the same variance.
@@ -179,6 +185,19 @@ void RecordingNoise::put_forces(std::span<const std::span<const double>> forces,
         rows[l * rows_per_line() + 2 * s] += shows.real();
         rows[l * rows_per_line() + 2 * s + 1] += shows.imag();
       }
+  }
+}
+
+void RecordingNoise::whiten(std::span<double> rows) const {
+  std::vector<Complex> line(sensors_);
+  for (std::size_t l = 0; l < lines_; ++l) {
+    double* row = &rows[l * rows_per_line()];
+    for (std::size_t s = 0; s < sensors_; ++s) line[s] = {row[2 * s], row[2 * s + 1]};
+    solve_lower(&factors_[l * sensors_ * sensors_], sensors_, line.data());
+    for (std::size_t s = 0; s < sensors_; ++s) {
+      row[2 * s] = line[s].real();
+      row[2 * s + 1] = line[s].imag();
+    }
   }
 }
 
@@ -259,10 +278,10 @@ std::vector<double> RecordingNoise::information() const {
 }
 
 NoiseFound find_noise(std::vector<RecordingNoise>& recordings, const InPlantSetup& setup,
-                      const NoiseSources& first, int threads) {
+                      const NoiseSources& first, int threads, ForceErrors errors) {
   constexpr int kMost = 200;
   constexpr double kSame = 1e-3, kOfNoWeight = 1e-4, kLeastShare = 1e-9;
-  const std::vector<bool> stated = stated_sources(setup);
+  const std::vector<bool> stated = stated_sources(setup, errors);
   NoiseFound found{.sources = first, .uncertainty = {}};
   std::vector<double> variances = variances_of(first);
   const std::vector<double> least = variances;

@@ -49,6 +49,8 @@ class RecordingNoise {
 
   /// E, as samples of each sensor.
   void set_beyond(const std::vector<std::vector<double>>& beyond);
+  /// E as such rows as put_lines() makes.
+  void set_beyond(std::span<const double> rows);
   /// Weighs by these sources from now on.
   void weigh_by(const NoiseSources& sources);
   /// E of at least so many samples, sensor by sensor, each `length` long, as real numbers, line by
@@ -59,6 +61,8 @@ class RecordingNoise {
   std::vector<std::vector<double>> samples_of(std::span<const double> rows) const;
   /// What the sensors show of forces of the dampers, as such rows.
   void put_forces(std::span<const std::span<const double>> forces, std::span<double> rows) const;
+  /// Brings such rows, in the units of the sensors, to rows whose noise is white, of variance 1.
+  void whiten(std::span<double> rows) const;
   /// The most likely noise of each input's sensor.
   std::vector<std::vector<double>> likely_inputs() const;
 
@@ -95,9 +99,13 @@ class RecordingNoise {
   std::vector<Follower> followers_;
 };
 
+/// Whether errors of the law's force are found, or are as large as is said.
+enum class ForceErrors { Found, Known };
+
 /// The sources under which all recordings are most likely, from `first` on; what a setup states is
 /// known. Afterwards the recordings are weighed by them.
 NoiseFound find_noise(std::vector<RecordingNoise>& recordings, const InPlantSetup& setup,
-                      const NoiseSources& first, int threads);
+                      const NoiseSources& first, int threads,
+                      ForceErrors errors = ForceErrors::Found);
 
 }  // namespace dashpot

@@ -50,10 +50,11 @@ Jackknife::Jackknife(std::span<const BlockOfData> blocks, std::size_t n)
     std::vector<double> own = in_scale(one.score);
     const std::vector<double> moved = product(information_.back(), step_, n);
     for (std::size_t k = 0; k < n; ++k) own[k] += moved[k];
-    const std::vector<double> way = in_scale(product(without_.back(), own, n));
+    std::vector<double> way = in_scale(product(without_.back(), own, n));
+    for (double& value : way) value *= std::sqrt((count - 1) / count);
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < n; ++k)
-        covariance_[i * n + k] += (count - 1) / count * way[i] * way[k];
+      for (std::size_t k = 0; k < n; ++k) covariance_[i * n + k] += way[i] * way[k];
+    ways_.push_back(std::move(way));
   }
   step_ = in_scale(std::move(step_));
 }
@@ -64,6 +65,15 @@ double Jackknife::half(std::size_t first, std::span<const double> weights, doubl
     for (std::size_t k = 0; k < weights.size(); ++k)
       variance += weights[i] * weights[k] * covariance_[(first + i) * n_ + first + k];
   return students_t_quantile(degrees(first, weights), 1 - beyond) * std::sqrt(variance);
+}
+
+double Jackknife::half_of_difference(const Jackknife& other, std::size_t k, double beyond) const {
+  const double one[] = {1};
+  double variance = 0;
+  for (std::size_t b = 0; b < ways_.size(); ++b)
+    variance += std::pow(ways_[b][k] - other.ways_[b][k], 2);
+  const double fewer = std::min(degrees(k, one), other.degrees(k, one));
+  return students_t_quantile(fewer, 1 - beyond) * std::sqrt(variance);
 }
 
 double Jackknife::degrees(std::size_t first, std::span<const double> weights) const {

@@ -26,6 +26,9 @@ class Jackknife {
   const std::vector<double>& covariance() const { return covariance_; }
   /// Half the interval, 1 - 2 `beyond` of all, of sum weights[k] x[first + k]: by Student's t.
   double half(std::size_t first, std::span<const double> weights, double beyond = 0.025) const;
+  /// Likewise of what unknown k is here more than in another estimate of it from the same blocks,
+  /// by the fewer degrees of freedom of the two.
+  double half_of_difference(const Jackknife& other, std::size_t k, double beyond = 0.025) const;
   /// Degrees of freedom of that sum's variance, at least 1: those of the chi squared with its mean
   /// and variance where what is left is white (Satterthwaite; for blocks: Bell and McCaffrey,
   /// Survey Methodology 28 (2002) 169-181).
@@ -35,6 +38,8 @@ class Jackknife {
   std::size_t n_;
   std::vector<std::vector<double>> information_;  ///< per block, in scales of each unknown
   std::vector<std::vector<double>> without_;      ///< per block: inverse information of all others
+  /// Per block: how far the estimate goes without it, such that their squares add up to variances.
+  std::vector<std::vector<double>> ways_;
   std::vector<double> all_, scale_, step_, covariance_;  ///< all_: the inverse of all information
 };
 
