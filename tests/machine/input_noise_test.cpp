@@ -326,10 +326,19 @@ TEST_CASE(
     CHECK(p.low <= value);
     CHECK(p.high >= value);
     CHECK(p.high - p.low < 0.25 * value);
+
+    // The number that leans by no law has an interval of its own, which is narrower.
+    const FittedParameter& beside = named_in(report.plant_beside_any_force, name);
+    CAPTURE(beside.value);
+    CHECK(beside.low < value);
+    CHECK(beside.high > value);
+    CHECK(beside.high - beside.low < p.high - p.low);
   }
 
   // Where the law is the damper's nothing is told.
-  CHECK_FALSE(told(identified_in_car_with("kwok2006", 1)));
+  const InPlantReport own = identified_in_car_with("kwok2006", 1);
+  CHECK_FALSE(told(own));
+  CHECK(own.plant_beside_any_force.empty());
 }
 
 TEST_CASE("in plant: a ride in which nothing is told ends without a model, and says so") {

@@ -71,6 +71,11 @@ class PlantFit:
         return {number["name"]: number for number in self.report["plant"] + self.report["damper"]}
 
     @property
+    def plant_beside_any_force(self) -> dict:
+        """The plant's numbers whatever the dampers' forces are, as .parameters; empty where the model's agree."""
+        return {number["name"]: number for number in self.report["plant_beside_any_force"]}
+
+    @property
     def advice(self) -> dict:
         """What would let the fit tell more: "sensors", "recordings" (the best first), "profiles"."""
         return self.report["advice"]

@@ -149,23 +149,34 @@ std::pair<double, double> reach_to(double half, double way, double half_there) {
   return {std::max(half, half_there - way), std::max(half, half_there + way)};
 }
 
-std::string told_beside_any_force(const BesideAnyForce& found, const FitBesideNoise& fit,
-                                  const Jackknife& beside_law) {
+std::vector<FittedParameter> numbers_beside_any_force(const BesideAnyForce& found,
+                                                      const FitBesideNoise& fit) {
   std::vector<double> x(fit.x.begin(), fit.x.end());
   for (std::size_t k = 0; k < found.way.size(); ++k) x[k] += found.way[k];
+  std::vector<FittedParameter> numbers;
+  for (std::size_t k = 0; k < found.way.size(); ++k) {
+    FittedParameter number = fit.residuals.described(k, x);
+    const double half = found.told.half(k, kOne) * fit.residuals.size_at(k, x);
+    number.low = number.value - half;
+    number.high = number.value + half;
+    numbers.push_back(std::move(number));
+  }
+  return numbers;
+}
 
-  // Each number there, and the one of whose interval the way makes most.
+std::string told_beside_any_force(const BesideAnyForce& found, const FitBesideNoise& fit,
+                                  const Jackknife& beside_law) {
+  // Each number, and the one of whose interval the way makes most.
   std::vector<std::string> numbers;
   std::string furthest;
   double most = 0;
-  for (std::size_t k = 0; k < found.way.size(); ++k) {
-    const FittedParameter number = fit.residuals.described(k, x);
-    const double there = found.told.half(k, kOne), half = beside_law.half(k, kOne),
-                 size = fit.residuals.size_at(k, x);
+  for (const FittedParameter& number : numbers_beside_any_force(found, fit)) {
+    const std::size_t k = numbers.size();
     numbers.push_back(number.name + " " + format_number(number.value, 4) + " " + number.unit +
-                      " (" + format_number(number.value - there * size, 4) + " ... " +
-                      format_number(number.value + there * size, 4) + ")");
-    const auto [below, above] = reach_to(half, found.way[k], there);
+                      " (" + format_number(number.low, 4) + " ... " +
+                      format_number(number.high, 4) + ")");
+    const double half = beside_law.half(k, kOne);
+    const auto [below, above] = reach_to(half, found.way[k], found.told.half(k, kOne));
     if (const double share = 1 - 2 * half / (below + above); share > most) {
       most = share;
       furthest = number.name;

@@ -49,7 +49,10 @@ std::optional<BesideAnyForce> beside_any_force(const FitBesideNoise& fit, EndOfS
 /// known there within another half.
 std::pair<double, double> reach_to(double half, double way, double half_there);
 
-/// What was found in words, and how much of an interval it makes.
+/// The plant's numbers there, with their intervals.
+std::vector<FittedParameter> numbers_beside_any_force(const BesideAnyForce& found,
+                                                      const FitBesideNoise& fit);
+/// The same in words, and how much of an interval comes from it.
 std::string told_beside_any_force(const BesideAnyForce& found, const FitBesideNoise& fit,
                                   const Jackknife& beside_law);
 

@@ -234,8 +234,10 @@ LeastSquaresReport solve_beside_noise(const InPlantSetup& setup,
                             .force = scale.force,
                             .threads = options.threads};
     if (has_enough_steps || turn + 1 == kTurns) tell_spread(at, solved, stays, fit);
-    if (fit.any_force)
-      report.warnings.push_back(told_beside_any_force(*fit.any_force, at, *fit.alone));
+    if (fit.any_force) {
+      fit.numbers = numbers_beside_any_force(*fit.any_force, at);
+      fit.told = told_beside_any_force(*fit.any_force, at, *fit.alone);
+    }
   }
   report.warnings.insert(report.warnings.end(), fit.more.begin(), fit.more.end());
   if (fit.noise.empty())

@@ -24,6 +24,8 @@ struct NoisyFit {
   Covariance spread;                        ///< of the unknowns
   std::optional<Jackknife> alone;           ///< what it comes from
   std::optional<BesideAnyForce> any_force;  ///< where the law is shown not to be the damper's
+  std::vector<FittedParameter> numbers;     ///< of the plant then, and the same in words
+  std::string told;
   /// Behind the unknowns what the damper shows beside the law, where that is more than chance.
   std::optional<Jackknife> with_more;
   std::vector<std::string> more;  ///< the same in words

@@ -590,7 +590,12 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
                                 figure.channel + ")");
   std::ranges::move(sensor_doubts(setup, report.sensors, report.traces),
                     std::back_inserter(report.warnings));
-  if (is_far_off(setup, report.traces)) drop_intervals(report);
+  if (is_far_off(setup, report.traces)) {
+    drop_intervals(report);
+  } else if (beside.any_force) {
+    report.plant_beside_any_force = std::move(beside.numbers);
+    report.warnings.push_back(std::move(beside.told));
+  }
   std::vector<LawModel> laws = residuals.laws(solved.x);
   for (std::size_t kind = 0; kind < laws.size(); ++kind)
     report.kinds.push_back({setup.kinds.names[kind], setup.kinds.struts(kind, setup.dampers()),

@@ -68,6 +68,9 @@ struct InPlantReport {
   std::string message;
   std::vector<FoundDamper> kinds;  ///< of dampers; empty: nothing could be fitted
   std::vector<FittedParameter> plant, damper, nuisances;
+  /// The plant's numbers as the sensors tell them whatever the dampers' forces are (any_force.h),
+  /// where the law is shown not to be theirs; else empty.
+  std::vector<FittedParameter> plant_beside_any_force;
   Knowable knowable;
   PlantAdvice advice;
   /// Of sensors and inputs that state none; what the fit cannot tell has no deviation.

@@ -88,6 +88,7 @@ Value to_json(const InPlantReport& r, const std::string& law) {
                               {"steps_per_sample", r.steps},
                               {"step_error", r.step_error},
                               {"plant", values_of(r.plant)},
+                              {"plant_beside_any_force", values_of(r.plant_beside_any_force)},
                               {"damper", values_of(r.damper)},
                               {"nuisances", values_of(r.nuisances)},
                               {"noise_found", values_of(r.noise)},
