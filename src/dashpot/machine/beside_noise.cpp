@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -272,16 +273,17 @@ Reach reach_of(const NoisyFit& fit) {
 }
 
 void add_noise(const InPlantSetup& setup, const NoiseFound& found, InPlantReport& report) {
+  constexpr double kWidest = 4.6;  // a factor of 100: beyond, there is as good as none of it
   std::size_t j = 0;
   const auto add = [&](std::string name, std::string unit, double value) {
     const double half = kNormal95 * found.uncertainty[j++];
-    if (half > 0)
-      report.nuisances.push_back({.name = std::move(name),
-                                  .unit = std::move(unit),
-                                  .meaning = {},
-                                  .value = value,
-                                  .low = value * std::exp(-half),
-                                  .high = value * std::exp(half)});
+    if (!(half > 0)) return;
+    FittedParameter noise{
+        .name = std::move(name), .unit = std::move(unit), .meaning = {}, .value = value};
+    const double wide = half < kWidest ? half : std::numeric_limits<double>::quiet_NaN();
+    noise.low = value * std::exp(-wide);
+    noise.high = value * std::exp(wide);
+    report.nuisances.push_back(std::move(noise));
   };
 
   // In the order of the uncertainties.
