@@ -13,7 +13,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kLongestWave = 0.01;  // cycle/m, below which a road counts as level
-constexpr std::size_t kParts = 8;  // of a sample, in each of which chance goes in a straight line
+constexpr std::size_t kParts = 8;      // of a sample, in each of which chance goes straight
 
 /// The inputs as a filter has them: those measured, then those that are not.
 std::vector<PlantInputChannel> in_order(const InPlantSetup& setup) {
@@ -243,8 +243,9 @@ ObserverTables observer_tables(const InPlantSetup& setup,
 
   // What a sample adds to the uncertainty of the plant and of what moved it, `own`.
   const std::size_t moving = t.moving(), error = p + roads;
-  const StepMatrices part =
-      step_matrices(equations, acting, sample_time / static_cast<double>(kParts));
+  const std::size_t parts = noise.is_straight ? 1 : kParts;
+  const double part_time = sample_time / static_cast<double>(parts);
+  const StepMatrices part = step_matrices(equations, acting, part_time);
   t.process.resize(moving * moving);
   const auto add = [&](std::size_t input, std::size_t own, std::span<const double> values,
                        double variance) {
@@ -259,13 +260,12 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   // What goes on at random, as a first-order process, does so between the samples too: in each part
   // of one it changes by chance, and what it was is forgotten from there on.
   const auto add_random = [&](std::size_t input, std::size_t own, double deviation, double memory) {
-    const double forgotten = sample_time / (static_cast<double>(kParts) * memory),
-                 keep = std::exp(-forgotten),
-                 variance = deviation * deviation * -std::expm1(-2 * forgotten);
-    for (std::size_t first = 0; first < kParts; ++first) {
-      std::vector<double> values(kParts + 1);
+    const double keep = std::exp(-part_time / memory),
+                 variance = deviation * deviation * -std::expm1(-2 * part_time / memory);
+    for (std::size_t first = 0; first < parts; ++first) {
+      std::vector<double> values(parts + 1);
       values[first + 1] = 1;
-      for (std::size_t k = first + 2; k <= kParts; ++k) values[k] = values[k - 1] * keep;
+      for (std::size_t k = first + 2; k <= parts; ++k) values[k] = values[k - 1] * keep;
       add(input, own, values, variance);
     }
   };
@@ -290,7 +290,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   for (std::size_t u = 0; u < measured; ++u) {
     input_variance.push_back(inputs[u].noise * inputs[u].noise);
     if (inputs[u].noise > 0)
-      add(u, moving, std::vector<double>(kParts + 1, 1.0), input_variance.back());
+      add(u, moving, std::vector<double>(parts + 1, 1.0), input_variance.back());
   }
 
   // The steps of differences, and a trace of uncertainty so that nothing counts as exact.
