@@ -80,11 +80,11 @@ ObservedRide spencer_ride(const std::string& file, double seconds, std::uint64_t
   return ride_with(load_parameters("spencer1997"), file, seconds, seed);
 }
 
-/// rms error of the force of a damper over its span, and the share of samples in its band, after
-/// 1 s.
+/// rms error of a quantity, first the forces of the dampers, over its span, and the share of
+/// samples in its band, after 1 s.
 std::pair<double, double> judged(const ObserveReport& report, const Record& truth,
-                                 std::size_t damper = 0) {
-  const ObservedQuantity& force = report.recordings.front().quantities[damper];
+                                 std::size_t which = 0) {
+  const ObservedQuantity& force = report.recordings.front().quantities[which];
   const std::vector<double>& f = truth.channel(force.name).samples;
   double square = 0, inside = 0, count = 0, low = INFINITY, high = -INFINITY;
   for (std::size_t k = 500; k < f.size(); ++k) {
@@ -383,6 +383,73 @@ TEST_CASE("observe: the four forces of a full car" * doctest::test_suite("long")
                                   << " % in the 90 % band");
     CHECK(error < 0.01);
     CHECK(inside > 0.75);
+  }
+}
+
+TEST_CASE("observe: what a sample adds is what chance does between the samples, not a line") {
+  constexpr double kSample = 0.002, kWheel = 139.5, kTyre = 295200;
+  const InPlantSetup setup = parse_in_plant_setup(kObservedCar, "car.yaml");
+  const auto damper = tanh_of_spencer();
+  ObserverScale scale = observer_scale(*damper, kCarDomain);
+  scale.offset.assign(3, 1e-3);
+
+  // Variances of the wheel's velocity and of the height (4) or the error (5) that moved it.
+  const auto added = [&](ObserverNoise noise, std::size_t own) {
+    noise.sensors = {0.05, 0.5, 2e-4};
+    const ObserverTables t = observer_tables(setup, {damper}, noise, scale, kSample, 2);
+    const std::size_t moving = t.moving();
+    REQUIRE(moving == 6);
+    return std::pair{t.process[3 * moving + 3], t.process[own * moving + own]};
+  };
+
+  // Of a random walk the integral has a third of the variance that a straight line would have as
+  // one value all along; a line from 0 has a quarter.
+  const auto [by_road, road] = added({.force = {{1e-6, 1}}, .roughness = 256e-4}, 4);
+  CHECK_CLOSE(by_road, road * std::pow(kTyre / kWheel * kSample, 2) / 3, 0.02, 0);
+  const auto [by_slow, slow] = added({.force = {{1e4, 1}}, .roughness = 1e-12}, 5);
+  CHECK_CLOSE(by_slow, slow * std::pow(kSample / kWheel, 2) / 3, 0.02, 0);
+
+  // An error that is forgotten within half a sample: of a first-order process from 0.
+  const double deviation = 1e4, memory = kSample / 2;
+  const auto [by_quick, quick] = added({.force = {{deviation, memory}}, .roughness = 1e-12}, 5);
+  CHECK_CLOSE(quick, deviation * deviation * (1 - std::exp(-4)), 1e-6, 0);
+  CHECK_CLOSE(by_quick,
+              std::pow(deviation * memory / kWheel, 2) *
+                  (2 * kSample / memory - 3 + 4 * std::exp(-2) - std::exp(-4)),
+              0.03, 0);
+}
+
+TEST_CASE("observe: light wheels on roads that nothing measures: bands of the motion hold too" *
+          doctest::test_suite("long")) {
+  std::string file = kObservedHalfCar;
+  for (const auto& [old, other] : {std::pair<std::string, std::string>{"139.5 kg", "40 kg"},
+                                   {"130 kg", "45 kg"},
+                                   {"{channel: road_front, kind: ground, at: front, noise: 0.2 mm}",
+                                    "{kind: ground, at: front, class: C, speed: 20 m/s}"},
+                                   {"{channel: road_rear, kind: ground, at: rear, noise: 0.2 mm}",
+                                    "{kind: ground, at: rear, class: C, speed: 20 m/s}"},
+                                   {"front_wheel, noise: 0.5", "front_wheel, noise: 0.08"},
+                                   {"rear_wheel, noise: 0.5", "rear_wheel, noise: 0.08"}})
+    file.replace(file.find(old), old.size(), other);
+
+  // With the true damper, soft and firm.
+  for (const std::string level : {"0 V", "2 V"}) {
+    CAPTURE(level);
+    std::string at_level = file;
+    at_level.replace(at_level.find("1 V"), 3, level);
+    const ObservedRide ride = spencer_ride(at_level, 4);
+    const ObserveReport report = observe(std::make_shared<LawModel>(load_parameters("spencer1997")),
+                                         kCarDomain, ride.setup, {ride.recorded}, {});
+    for (const std::size_t damper : {0u, 1u}) {
+      const DamperQuantities places = damper_quantities(damper, 2);
+      const auto force = judged(report, ride.truth, places.force),
+                 velocity = judged(report, ride.truth, places.velocity);
+      MESSAGE(level << ": force " << 100 * force.first << " % of span, " << 100 * force.second
+                    << " % in the 90 % band; velocity " << 100 * velocity.second << " %");
+      CHECK(force.first < 0.01);
+      CHECK(force.second > 0.85);
+      CHECK(velocity.second > 0.85);
+    }
   }
 }
 

@@ -97,6 +97,7 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
                   .steps = 1,
                   .threads = options.threads,
                   .monitor = {.on_progress = {}, .stop = options.monitor.stop},
+                  .is_straight = true,
                   .seeks_faults = false});
 }
 
@@ -138,6 +139,7 @@ ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecordin
                                     .steps = 1,
                                     .threads = options.threads,
                                     .monitor = {.on_progress = {}, .stop = options.monitor.stop},
+                                    .is_straight = true,
                                     .seeks_faults = false});
   for (std::size_t r = 0; r < fitted.size(); ++r)
     for (std::size_t k = 0; k < force[r].size(); ++k)

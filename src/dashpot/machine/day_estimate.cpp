@@ -124,6 +124,7 @@ PlantObserver DayProblem::observer(const std::vector<double>& x) const {
     setup.known.emplace_back(watched_->setup.unknown[k].name, plant_value(k, x));
   ObserverNoise noise = watched_->noise;
   noise.roughness = roughness(x);
+  noise.is_straight = true;  // as on the days before, whose state may be an old one
   std::vector<std::shared_ptr<const DamperModel>> dampers;
   for (std::size_t d = 0, at = 0; d < watched_->dampers.size(); ++d) {
     std::vector<WornDamper::Amount> amounts;

@@ -98,17 +98,21 @@ class NoiseSearch {
 NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                          const ObserverScale& scale, const ObserveOptions& options) {
   constexpr double kFirstForce = 0.02, kFirstNoise = 0.02, kWidest = 1e4, kSlowest = 5;
+  constexpr double kFirstQuick = 5;                       // memory of the quick error, samples
+  const double quickest = options.is_straight ? 2 : 0.5;  // where it goes straight it has one
   const double sample_time = recordings.front().sample_time;
 
   // A quick error of the model and a slow one, which no single one can stand for.
+  noise_.is_straight = options.is_straight;
   noise_.force = options.force;
   if (noise_.force.empty()) {
-    noise_.force = {{kFirstForce * scale.force, 5 * sample_time}, {kFirstForce * scale.force, 0.5}};
+    noise_.force = {{kFirstForce * scale.force, kFirstQuick * sample_time},
+                    {kFirstForce * scale.force, 0.5}};
     for (std::size_t e = 0; e < noise_.force.size(); ++e) {
       seek([e](ObserverNoise& n) { return &n.force[e].deviation; }, 1e-5 * scale.force,
            2 * scale.force);
-      seek([e](ObserverNoise& n) { return &n.force[e].memory; }, e == 0 ? 2 * sample_time : kParted,
-           e == 0 ? kParted : kSlowest);
+      seek([e](ObserverNoise& n) { return &n.force[e].memory; },
+           e == 0 ? quickest * sample_time : kParted, e == 0 ? kParted : kSlowest);
     }
   }
 

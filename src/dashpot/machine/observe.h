@@ -24,6 +24,7 @@ struct ObserveOptions {
   double level = 0.9;
   int threads = 0;
   Monitor monitor;
+  bool is_straight = false;  ///< between samples, as in ObserverNoise: for fits and watch
   bool seeks_faults = true;  ///< sensors that are held or drift, which takes longer than the rest
 };
 

@@ -13,6 +13,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kLongestWave = 0.01;  // cycle/m, below which a road counts as level
+constexpr std::size_t kParts = 8;      // of a sample, in each of which chance goes straight
 
 /// The inputs as a filter has them: those measured, then those that are not.
 std::vector<PlantInputChannel> in_order(const InPlantSetup& setup) {
@@ -63,15 +64,15 @@ StepMatrices step_matrices(const DrivenPlant& plant, std::size_t acting, double 
   return m;
 }
 
-/// The plant's state after a sample in which one input went straight from `first` to `last`.
+/// The plant's state, 0 at first, behind steps over which one input went straight from each of
+/// these values to the next.
 std::vector<double> response_to(const StepMatrices& m, std::size_t p, std::size_t acting,
-                                std::size_t input, int steps, double first, double last) {
+                                std::size_t input, std::span<const double> values) {
   std::vector<double> state(p), next(p);
-  for (int step = 0; step < steps; ++step) {
-    const double from = first + (last - first) * step / steps,
-                 to = first + (last - first) * (step + 1) / steps;
+  for (std::size_t step = 0; step + 1 < values.size(); ++step) {
     for (std::size_t i = 0; i < p; ++i) {
-      next[i] = m.by_start[i * acting + input] * from + m.by_end[i * acting + input] * to;
+      next[i] = m.by_start[i * acting + input] * values[step] +
+                m.by_end[i * acting + input] * values[step + 1];
       for (std::size_t k = 0; k < p; ++k) next[i] += m.transition[i * p + k] * state[k];
     }
     state = next;
@@ -241,20 +242,33 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   }
   for (const auto& damper : dampers) t.damper.push_back(static_cast<int>(damper->state_size()));
 
-  // What a sample adds to the uncertainty: a road goes on at random, the force's errors likewise,
-  // and what is measured of an input is not quite what it was.
+  // What a sample adds to the uncertainty of the plant and of what moved it, `own`.
   const std::size_t moving = t.moving(), error = p + roads;
+  const std::size_t parts = noise.is_straight ? 1 : kParts;
+  const double part_time = sample_time / static_cast<double>(parts);
+  const StepMatrices part = step_matrices(equations, acting, part_time);
   t.process.resize(moving * moving);
-  const auto add = [&](const std::vector<double>& plant_part, std::size_t own, double variance) {
-    std::vector<double> row(moving);
-    std::ranges::copy(plant_part, row.begin());
-    if (own < moving) row[own] = 1;
+  const auto add = [&](std::size_t input, std::size_t own, std::span<const double> values,
+                       double variance) {
+    std::vector<double> row = response_to(part, p, acting, input, values);
+    row.resize(moving);
+    if (own < moving) row[own] = values.back();
     for (std::size_t i = 0; i < moving; ++i)
       for (std::size_t k = 0; k < moving; ++k)
         t.process[i * moving + k] += variance * row[i] * row[k];
   };
-  const auto response = [&](std::size_t input, double first, double last) {
-    return response_to(matrices, p, acting, input, steps, first, last);
+
+  // What goes on at random, as a first-order process, does so between the samples too: in each part
+  // of one it changes by chance, and what it was is forgotten from there on.
+  const auto add_random = [&](std::size_t input, std::size_t own, double deviation, double memory) {
+    const double keep = std::exp(-part_time / memory),
+                 variance = deviation * deviation * -std::expm1(-2 * part_time / memory);
+    for (std::size_t first = 0; first < parts; ++first) {
+      std::vector<double> values(parts + 1);
+      values[first + 1] = 1;
+      for (std::size_t k = first + 2; k <= parts; ++k) values[k] = values[k - 1] * keep;
+      add(input, own, values, variance);
+    }
   };
   double road_rate_variance = 0, road_deviation = 0;
   for (std::size_t r = 0; r < roads; ++r) {
@@ -262,22 +276,22 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     const double density = noise.roughness * std::pow(kTurn * kReferenceWaveNumber, 2) * road.speed;
     const double forgetting = kTurn * kLongestWave * road.speed;
     t.road_keep = std::exp(-forgetting * t.step);
-    const double added = 0.5 * density * sample_time;  // two-sided
-    add(response(measured + r, 0, 1), p + r, added);
-    road_rate_variance = added / (sample_time * sample_time);
+    road_rate_variance = 0.5 * density / sample_time;  // two-sided
     road_deviation = std::sqrt(0.5 * density / (2 * forgetting));
+    add_random(measured + r, p + r, road_deviation, 1 / forgetting);
   }
   for (const ForceError& one : noise.force) t.force_keep.push_back(std::exp(-t.step / one.memory));
   for (std::size_t d = 0; d < dampers.size(); ++d)
-    for (std::size_t e = 0; e < noise.force.size(); ++e) {
-      const auto [deviation, memory] = noise.force[e];
-      add(response(inputs.size() + d, 0, 1), error + d * noise.force.size() + e,
-          deviation * deviation * -std::expm1(-2 * sample_time / memory));
-    }
+    for (std::size_t e = 0; e < noise.force.size(); ++e)
+      add_random(inputs.size() + d, error + d * noise.force.size() + e, noise.force[e].deviation,
+                 noise.force[e].memory);
+
+  // What is measured of an input is not quite what it was.
   std::vector<double> input_variance;
   for (std::size_t u = 0; u < measured; ++u) {
     input_variance.push_back(inputs[u].noise * inputs[u].noise);
-    if (inputs[u].noise > 0) add(response(u, 1, 1), moving, input_variance.back());
+    if (inputs[u].noise > 0)
+      add(u, moving, std::vector<double>(parts + 1, 1.0), input_variance.back());
   }
 
   // The steps of differences, and a trace of uncertainty so that nothing counts as exact.

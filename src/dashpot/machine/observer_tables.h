@@ -22,6 +22,10 @@ struct ObserverNoise {
   /// m, how far apart tracks of an isotropic surface are as alike as those of such a road, which a
   /// filter takes for independent; 0: there are none side by side.
   double track_width = 0;
+  /// Between samples road and errors go in straight lines and not at random, as fits that look
+  /// for the law and 'watch' have it: motion is known closer where the road is smooth over a
+  /// sample, and its bands are too narrow.
+  bool is_straight = false;
 };
 
 /// A damper in a plant, and the domain of its data.

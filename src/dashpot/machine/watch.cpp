@@ -224,9 +224,13 @@ WatchedPlant watched_plant(ObservedDampers dampers, InPlantSetup setup,
       if (options.monitor.on_progress)
         options.monitor.on_progress({own.stage, kPreparation * (round + own.fraction) / kRounds});
     };
-    const ObserveReport observed = observe(
-        watched.dampers, as_begun(watched.setup), moving_parts(watched.setup, reference),
-        {.causal = true, .threads = options.threads, .monitor = monitor, .seeks_faults = false});
+    const ObserveReport observed =
+        observe(watched.dampers, as_begun(watched.setup), moving_parts(watched.setup, reference),
+                {.causal = true,
+                 .threads = options.threads,
+                 .monitor = monitor,
+                 .is_straight = true,
+                 .seeks_faults = false});
     watched.noise = observed.noise;
     watched.steps = observed.steps;
     std::vector<DayEstimate> days(reference.size());

@@ -262,6 +262,7 @@ void add_traces(const Task& task, const InPlantSetup& found, const ObserverNoise
                    {.force = noise.force,
                     .threads = task.options.threads,
                     .monitor = {.on_progress = {}, .stop = task.options.monitor.stop},
+                    .is_straight = true,
                     .seeks_faults = false});
   };
   const ObserveReport seen = look(task.fitted);
@@ -493,9 +494,11 @@ InPlantReport fit_without_road(const Law& law, const InPlantSetup& setup,
           fit_along(task, unknowns, size.force, observed, last, point, report);
       if (!report.has_models()) break;
       if (!last) {
-        observed = observe(
-            in_struts(report, found), found, task.fitted,
-            {.force = point.noise.force, .threads = options.threads, .seeks_faults = false});
+        observed = observe(in_struts(report, found), found, task.fitted,
+                           {.force = point.noise.force,
+                            .threads = options.threads,
+                            .is_straight = true,
+                            .seeks_faults = false});
         continue;
       }
       report.force_error = 0;
