@@ -86,12 +86,12 @@ void pass(Bytes& bytes, FoundDamper& d) {
 /// By name, so that a new member does not compile until it is dealt with here.
 template <class Bytes>
 void pass(Bytes& bytes, InPlantReport& report) {
-  auto& [status, message, kinds, plant, damper, nuisances, plant_beside_any_force, knowable, advice, noise, sensors, traces,
-         warnings, road_measured, force_error, lacks, along, iterations, seconds, steps, method,
-         step_error] = report;
-  bytes(status, message, kinds, plant, damper, nuisances, plant_beside_any_force, knowable, advice, noise, sensors, traces,
-        warnings, road_measured, force_error, lacks, along, iterations, seconds, steps, method,
-        step_error);
+  auto& [status, message, kinds, plant, damper, nuisances, plant_beside_any_force, knowable, advice,
+         noise, sensors, traces, warnings, road_measured, force_error, lacks, along, iterations,
+         seconds, steps, method, step_error] = report;
+  bytes(status, message, kinds, plant, damper, nuisances, plant_beside_any_force, knowable, advice,
+        noise, sensors, traces, warnings, road_measured, force_error, lacks, along, iterations,
+        seconds, steps, method, step_error);
 }
 
 /// Takes members one behind the other.
