@@ -206,6 +206,11 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
                                             : "Errors of the model's force: ") +
                   errors + " (--force-error " + words + ").");
 
+  if (report.forces_known_within > 0)
+    lines.push_back("All forces together: within " +
+                    format_number(100 * report.forces_known_within, 2) +
+                    " % (95 %), as the plant's mass was found.");
+
   // The sensors, and roads that nothing measured.
   const auto origin = [](double noise, const IdentifiedNoise& identified) {
     if (!(noise > 0)) return std::string("found in these recordings");

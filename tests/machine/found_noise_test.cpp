@@ -110,6 +110,27 @@ TEST_CASE("an observer's noise: stated, else of the plant's file, else of the mo
   CHECK(found.sensors[1].identified.deviation == 0);
   CHECK(format_json(to_json(found)) == file);
 
+  // So are the numbers that were found, with their intervals.
+  report.plant = {{.name = "tyre_stiffness",
+                   .unit = "N/m",
+                   .meaning = {},
+                   .value = 2e5,
+                   .low = 1.9e5,
+                   .high = 2.2e5}};
+  InPlantSetup open = setup;
+  open.known.pop_back();
+  const std::string numbers = format_json(to_json(as_found(open, report)));
+  const InPlantSetup again = parse_in_plant_setup(numbers, "plants/a.json");
+  REQUIRE(again.found.size() == 1);
+  CHECK(again.found[0].name == "tyre_stiffness");
+  CHECK(again.found[0].high == 2.2e5);
+  CHECK(format_json(to_json(again)) == numbers);
+  std::string wrong = numbers;
+  wrong.replace(wrong.find("\"low\""), 5, "\"high\"");
+  wrong.replace(wrong.rfind("\"high\""), 6, "\"low\"");
+  CHECK(contains(message_of([&] { parse_in_plant_setup(wrong, "plants/a.json"); }),
+                 "lies outside its own interval; low, found and high in that order"));
+
   // An observer takes it, and the model's for what that file says nothing of; units must agree.
   ModelFile model = to_model_file(load_parameter_set("spencer1997"));
   model.noise_found = {{"az", "m/s^2", 0.07, 0.3}, {"level", "m", 1e-4, 2e-4}, {"road", "N", 3, 0}};

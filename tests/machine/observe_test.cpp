@@ -265,6 +265,35 @@ TEST_CASE("observe: with the true damper, whose states are in the filter, its me
   CHECK(report.warnings.empty());
 }
 
+TEST_CASE("observe: how well the plant's mass is known is in the bands of the forces") {
+  ObservedRide ride = spencer_ride(kObservedCar, 2);
+  const auto mass =
+      std::ranges::find(ride.setup.known, "sprung_mass", &NamedValues::value_type::first);
+  REQUIRE(mass != ride.setup.known.end());
+  mass->second *= 1.05;
+  ObserveOptions options;
+  options.force = {{28, 0.005}, {20, 0.3}};
+  const auto observed = [&](const InPlantSetup& setup) {
+    return observe(tanh_of_spencer(), kCarDomain, setup, {ride.recorded}, options);
+  };
+  InPlantSetup found = ride.setup;
+  found.found = {{"sprung_mass", 0.94 * mass->second, 1.02 * mass->second},
+                 {"tyre_stiffness", 0, 1e9}};
+  const ObserveReport known = observed(ride.setup), within = observed(found);
+  CHECK(known.forces_known_within == 0);
+  CHECK_CLOSE(within.forces_known_within, 0.06, 1e-12, 0);
+
+  // As a share of the force, at the level of the band, beside what the filter knows.
+  const ObservedQuantity &before = known.recordings[0].quantities[0],
+                         &force = within.recordings[0].quantities[0];
+  for (std::size_t k = 0; k < force.value.size(); k += 50) {
+    CHECK(force.value[k] == before.value[k]);
+    const double share = 1.6448536 / 1.9599640 * 0.06 * force.value[k];
+    CHECK_CLOSE(force.half[k], std::hypot(before.half[k], share), 1e-6, 0);
+  }
+  CHECK(judged(within, ride.truth).second > judged(known, ride.truth).second + 0.05);
+}
+
 TEST_CASE("observe: a plant that states no sensor's noise is told what that does to the bands" *
           doctest::test_suite("long")) {
   ObservedRide ride = spencer_ride(kObservedCar, 1);

@@ -149,6 +149,7 @@ Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
                         {"sensor_noise", Value::array(report.noise.sensors)},
                         {"sensor_noise_from", std::move(origins)},
                         {"roughness_m3", report.noise.roughness},
+                        {"forces_known_within", report.forces_known_within},
                         {"steps_per_sample", report.steps},
                         {"cpu_seconds", report.seconds},
                         {"recordings", std::move(recordings)},

@@ -70,6 +70,12 @@ struct PlantSensor {
   IdentifiedNoise identified = {};
 };
 
+/// A number of the plant that a fit found, with its 95 % interval, SI.
+struct FoundNumber {
+  std::string name;
+  double low = 0, high = 0;
+};
+
 /// Which of the dampers in a plant are alike.
 struct DamperKinds {
   std::vector<std::string> names = {""};  ///< the only kind has none
@@ -104,7 +110,8 @@ struct InPlantSetup {
   const PlantModel* model = nullptr;
   /// Where the plant is none of the shipped kinds: what holds its model (plant_of_matrices.h).
   std::shared_ptr<const PlantOfMatrices> matrices = nullptr;
-  NamedValues known;  ///< SI; what is neither known nor unknown is as in the table
+  NamedValues known;               ///< SI; what is neither known nor unknown is as in the table
+  std::vector<FoundNumber> found;  ///< those of the known ones that a fit found
   std::vector<PlantUnknown> unknown;
   std::vector<PlantInputChannel> inputs;
   std::vector<PlantSensor> sensors;

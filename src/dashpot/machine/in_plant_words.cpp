@@ -367,10 +367,28 @@ InPlantSetup from_words(const std::string& words) {
   return setup;
 }
 
+/// A number that a fit found: {found: 387 kg, low: 380 kg, high: 394 kg}.
+void read_found(InPlantSetup& setup, const std::string& name, const ParameterRow& row,
+                const Value& value) {
+  ObjectReader reader(value, "a number that was found");
+  const double found =
+      checked(row, read_quantity(reader.required("found"), row.unit), value.where());
+  const FoundNumber interval{name, read_quantity(reader.required("low"), row.unit),
+                             read_quantity(reader.required("high"), row.unit)};
+  reader.finish();
+  if (!(interval.low <= found && found <= interval.high))
+    throw Error(value.where(), "lies outside its own interval",
+                "low, found and high in that order");
+  setup.known.emplace_back(name, found);
+  setup.found.push_back(interval);
+}
+
 void read_parameters(InPlantSetup& setup, const Value& parameters) {
   for (const auto& [name, value] : parameters.members()) {
     const ParameterRow& row = row_of(*setup.model, name, value.where());
-    if (value.kind() == Value::Kind::Object) {
+    if (value.kind() == Value::Kind::Object && value.find("found")) {
+      read_found(setup, name, row, value);
+    } else if (value.kind() == Value::Kind::Object) {
       // A range, and where in it the search starts.
       ObjectReader reader(value, "an unknown parameter");
       PlantUnknown unknown = unknown_within(row);
@@ -620,7 +638,13 @@ InPlantSetup read_in_plant_setup(const std::string& words) {
 Value to_json(const InPlantSetup& setup) {
   // What is known of the plant, and what is not.
   Value parameters = Value::object();
-  for (const auto& [name, value] : setup.known) parameters.add(name, value);
+  for (const auto& [name, value] : setup.known) {
+    const auto found = std::ranges::find(setup.found, name, &FoundNumber::name);
+    parameters.add(
+        name, found == setup.found.end()
+                  ? Value(value)
+                  : Value::object({{"found", value}, {"low", found->low}, {"high", found->high}}));
+  }
   for (const PlantUnknown& unknown : setup.unknown) {
     Value range = Value::object();
     range.add("from", unknown.lower);
@@ -701,7 +725,10 @@ Value to_json(const InPlantSetup& setup) {
 }
 
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
-  for (const FittedParameter& p : report.plant) setup.known.emplace_back(p.name, p.value);
+  for (const FittedParameter& p : report.plant) {
+    setup.known.emplace_back(p.name, p.value);
+    if (has_interval(p)) setup.found.push_back({p.name, p.low, p.high});
+  }
   setup.unknown.clear();
 
   // Dampers may have been found to be of several kinds.

@@ -349,10 +349,27 @@ std::vector<PlantObserver> with_less_slow_errors(
   return tried;
 }
 
+/// How well forces are known as a whole, where the plant's mass was found: half the 95 % interval
+/// of the greatest such mass, over it. The accelerations being what they are, a plant that counts
+/// as too heavy has all forces too large by as much.
+double scale_known_within(const InPlantSetup& setup) {
+  double greatest = 0, within = 0;
+  for (const FoundNumber& one : setup.found) {
+    const auto& rows = setup.model->parameters;
+    if (rows[row_named(rows, one.name, setup.model->name, "plant")].unit != "kg") continue;
+    const double value =
+        std::ranges::find(setup.known, one.name, &NamedValues::value_type::first)->second;
+    if (!(value > greatest)) continue;
+    greatest = value;
+    within = std::max(one.high - value, value - one.low) / value;
+  }
+  return within;
+}
+
 /// The estimates of a run as quantities with bands.
 ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetup& setup,
                                 const PlantRecording& recording, const ObservedSamples& samples,
-                                const ObservedRun& run, double width) {
+                                const ObservedRun& run, double width, double scale_deviation) {
   const ObserverTables& t = observer.tables();
   const ObserverNames names = observer_names(setup);
   const std::size_t all = t.all(), count = samples.count, dampers = names.struts.size(),
@@ -379,7 +396,8 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
       const PlantObserver::Damper damper = observer.damper_at(
           d, samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), estimate, covariance);
       const DamperQuantities places = damper_quantities(d, dampers);
-      add(places.force, damper.force, damper.deviation * damper.deviation);
+      add(places.force, damper.force,
+          damper.deviation * damper.deviation + std::pow(scale_deviation * damper.force, 2));
 
       // A damper's motion: a row over the plant's coordinates, or over their velocities.
       const double* way = &t.deflection[d * coordinates];
@@ -539,6 +557,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
                                         : search.first();
 
   // Each recording in turn.
+  report.forces_known_within = scale_known_within(setup);
   const double width = normal_quantile(0.5 + 0.5 * options.level);
   const std::vector<PlantObserver> observers =
       observers_of(models, setup, recordings, report.noise, scale, report.steps);
@@ -570,8 +589,8 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
       smooth(observers[r], run);
       smooth_again(observers[r], samples[r], run);
     }
-    report.recordings.push_back(
-        quantities_of(observers[r], setup, recordings[r], samples[r], run, width));
+    report.recordings.push_back(quantities_of(observers[r], setup, recordings[r], samples[r], run,
+                                              width, report.forces_known_within / kNormal95));
     const ObserverTables& t = observers[r].tables();
     for (std::size_t s = 0; s < sensors.size(); ++s)
       sensors[s].offset = run.estimates[(samples[r].count - 1) * t.all() + t.moving() + s];

@@ -66,6 +66,9 @@ struct ObserveReport {
   ObserverNoise noise;  ///< stated or found
   int steps = 1;
   bool noise_was_found = false;
+  /// Half the 95 % interval of all forces together, as a share of them, where a fit found the
+  /// plant's mass: it is in the forces' bands.
+  double forces_known_within = 0;
   double seconds = 0;  ///< CPU time
   std::vector<std::string> warnings;
 };
