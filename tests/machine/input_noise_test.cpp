@@ -9,6 +9,7 @@
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/numerics/spectrum.h"
@@ -334,6 +335,12 @@ TEST_CASE(
     CHECK(beside.high > value);
     CHECK(beside.high - beside.low < p.high - p.low);
   }
+
+  // The plant as found has that one, with its interval.
+  const InPlantSetup found = as_found(setup, report);
+  REQUIRE(found.found.size() == 3);
+  CHECK(found.known.back().second == report.plant_beside_any_force.back().value);
+  CHECK(found.found.back().low == report.plant_beside_any_force.back().low);
 
   // Where the law is the damper's nothing is told.
   const InPlantReport own = identified_in_car_with("kwok2006", 1);

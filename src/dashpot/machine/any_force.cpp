@@ -185,7 +185,7 @@ std::string told_beside_any_force(const BesideAnyForce& found, const FitBesideNo
   std::string words =
       "this law is not the damper's, or what is stated of the plant is not so: whatever the "
       "damper's force is, the sensors tell " +
-      join(numbers, ", ") + "; intervals reach to there";
+      join(numbers, ", ") + "; the plant as found has these, and intervals reach to there";
   if (!furthest.empty())
     words += ", and " + format_number(100 * most, 2) + " % of that of " + furthest +
              " comes from what the law lacks";

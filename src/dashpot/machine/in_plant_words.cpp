@@ -725,7 +725,8 @@ Value to_json(const InPlantSetup& setup) {
 }
 
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
-  for (const FittedParameter& p : report.plant) {
+  for (const FittedParameter& p :
+       report.plant_beside_any_force.empty() ? report.plant : report.plant_beside_any_force) {
     setup.known.emplace_back(p.name, p.value);
     if (has_interval(p)) setup.found.push_back({p.name, p.low, p.high});
   }

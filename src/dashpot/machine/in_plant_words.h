@@ -26,7 +26,8 @@ InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& sour
 /// The same setup as such a file holds it, in SI.
 Value to_json(const InPlantSetup& setup);
 /// The setup with what an identification has found in place of what was unknown: the plant's
-/// numbers and the sensors' delays; and beside what was not stated: their noise.
+/// numbers, where they are told those beside any force, and the sensors' delays; and beside what
+/// was not stated: their noise.
 InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report);
 
 }  // namespace dashpot
