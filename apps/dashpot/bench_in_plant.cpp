@@ -305,18 +305,22 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   std::string levels;
   for (const double level : options.levels)
     levels += (levels.empty() ? "" : ", ") + format_number(level);
-  console.print(
-      counted(rides.size(), "ride") + " of the " +
-      (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
-      format_number(options.duration) + " s each, at " + levels + ' ' +
-      to_string(damper.model.drive_unit()) + (options.road.empty() ? "" : ", on " + options.road) +
-      "\n\nRecordings  " + folder + "/ride_*.csv\nTruth       " + folder +
-      "/truth/, of the same names\nPlant       " + plant.string() + ", as it truly is\n" +
-      (asked.unknown.empty()
-           ? ""
-           : "Unknown     truly " + true_words(asked, setup) + " (--true states others)\n") +
-      "Next        dashpot identify " + shell_quoted(folder) + " --in " +
-      shell_quoted(settings.plant) + '\n');
+  const std::string drives = setup.drive_channels().size() < 2 ? ""
+                             : options.hold > 0
+                                 ? ", each channel switched by itself"
+                                 : ", each channel one level ahead of the one before it";
+  console.print(counted(rides.size(), "ride") + " of the " +
+                (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
+                format_number(options.duration) + " s each, at " + levels + ' ' +
+                to_string(damper.model.drive_unit()) + drives +
+                (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
+                "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +
+                plant.string() + ", as it truly is\n" +
+                (asked.unknown.empty() ? ""
+                                       : "Unknown     truly " + true_words(asked, setup) +
+                                             " (--true states others)\n") +
+                "Next        dashpot identify " + shell_quoted(folder) + " --in " +
+                shell_quoted(settings.plant) + '\n');
   if (console.json)
     console.print_json(
         Value::object({{"folder", folder}, {"rides", std::move(list)}, {"plant", plant.string()}}));

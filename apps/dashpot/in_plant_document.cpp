@@ -279,8 +279,8 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
       section.tables.push_back(parameter_table("Plant, whatever the dampers' forces are",
                                                best.report.plant_beside_any_force));
       section.tables.back().note =
-          "From what the sensors show that no force of a damper could make: the law, which is not "
-          "the dampers' own, has no part in these numbers.";
+          "From what the sensors show that no force of a damper could make: the law has no part in "
+          "these numbers.";
     }
     if (!best.report.damper.empty())
       section.tables.push_back(parameter_table("Damper", best.report.damper));

@@ -42,6 +42,8 @@ DocumentTable channels_table(const InPlantSetup& setup) {
                       .rows = {},
                       .note = "All numbers are in SI."};
   const Value file = to_json(setup);
+
+  // A row of each: what has no column of its own stands in the last.
   const auto add = [&](const Value& one, const char* what) {
     std::vector<std::string> row = {"none", "", "", ""}, more;
     for (const auto& [key, value] : one.members())
@@ -58,6 +60,8 @@ DocumentTable channels_table(const InPlantSetup& setup) {
   };
   for (const Value& input : file.find("inputs")->items()) add(input, "kind");
   for (const Value& sensor : file.find("sensors")->items()) add(sensor, "quantity");
+
+  // What drives the dampers: one for all, or each its own.
   for (const char* key : {"current", "voltage"}) {
     const Value* drive = file.find(key);
     if (!drive) continue;

@@ -183,8 +183,8 @@ std::string told_beside_any_force(const BesideAnyForce& found, const FitBesideNo
     }
   }
   std::string words =
-      "this law is not the damper's, or what is stated of the plant is not so: whatever the "
-      "damper's force is, the sensors tell " +
+      "this law seems not to be the damper's, or something stated of the plant not so (one sound "
+      "fit in twenty is told this by chance): whatever the damper's force is, the sensors tell " +
       join(numbers, ", ") + "; the plant as found has these, and intervals reach to there";
   if (!furthest.empty())
     words += ", and " + format_number(100 * most, 2) + " % of that of " + furthest +

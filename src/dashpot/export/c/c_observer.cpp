@@ -23,6 +23,7 @@ constexpr const char* kObserverHeader = R"(/* @title@
  *   for (;;) damper_step(&model, &input, outputs);
  *
  * Inputs: @inputs@
+ * Drives: @drives@
  * Sensors: @sensors@
  * Outputs: @outputs@
  *
@@ -196,12 +197,16 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
     output_units.push_back(port.unit);
   }
 
+  const std::vector<std::string> of_struts(names.struts.size(), unit);
+
   // The header and the facts in it.
   const auto number = [](std::size_t count) { return CText::own(std::to_string(count)); };
   const std::vector<std::pair<std::string, CText>> values{
       {"title", c_comment(title)},
       {"about", c_comment(about)},
       {"inputs", c_comment(listed(names.inputs, names.input_units))},
+      {"drives", c_comment(t.drives > 1 ? listed(names.struts, of_struts)
+                                        : "of every damper (" + unit + ")")},
       {"sensors", c_comment(listed(names.sensors, names.sensor_units))},
       {"outputs", c_comment(listed(output_names, output_units))},
       {"version", c_comment(options.version)},
@@ -242,7 +247,7 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
   };
   ports[0].parts = names.inputs.empty() ? std::vector<CPort::Part>{{"none", ""}}
                                         : parts(names.inputs, names.input_units);
-  if (t.drives > 1) ports[1].parts = parts(names.struts, std::vector(names.struts.size(), unit));
+  if (t.drives > 1) ports[1].parts = parts(names.struts, of_struts);
   ports[2].parts = parts(names.sensors, names.sensor_units);
   return {.name = c_name(options.name.empty() ? names.damper + "_observer" : options.name),
           .title = title,

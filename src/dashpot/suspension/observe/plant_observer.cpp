@@ -116,6 +116,8 @@ void PlantObserver::before_first(std::span<const double> now, std::span<const do
   const std::size_t all = tables_.all();
   std::ranges::fill(estimate, 0.0);
   std::ranges::fill(covariance, 0.0);
+
+  // Each damper at rest under its drive; plant and roads as far as they are known.
   std::size_t own = tables_.own();
   const FilterWithDampers f = filter_of(tables_, dampers_);
   for (std::size_t d = 0; d < dampers_.size(); ++d) {
@@ -125,6 +127,8 @@ void PlantObserver::before_first(std::span<const double> now, std::span<const do
     own += dampers_[d]->state_size();
   }
   std::ranges::copy(about, estimate.begin());
+
+  // How uncertain all of it is.
   const auto plant = static_cast<std::size_t>(tables_.plant);
   for (std::size_t k = 0; k < all; ++k) {
     const bool is_velocity = k >= plant / 2 && k < plant;
