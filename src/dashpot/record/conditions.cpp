@@ -113,6 +113,58 @@ std::vector<std::string> without_bare_levels(const std::vector<Record>& records,
   return shorter;
 }
 
+/// The name without words that may count records: a number ("07") that has no unit behind it, or
+/// one behind letters ("run7").
+std::string without_counters(const std::string& name) {
+  constexpr std::string_view kBetween = "_- ";
+  std::string kept;
+  for (std::size_t begin = 0, end = 0; begin < name.size(); begin = end + 1) {
+    end = std::min(name.find_first_of(kBetween, begin), name.size());
+    const std::string word = name.substr(begin, end - begin);
+    const std::string behind = lower(name.substr(std::min(end + 1, name.size()), 2));
+    const bool has_unit = behind == "mm" || behind == "hz";
+    const auto digits = std::ranges::find_if_not(word, is_letter);
+    const bool counts = digits != word.end() && std::all_of(digits, word.end(), is_digit) &&
+                        !(digits == word.begin() && has_unit);
+    if (counts || word.empty()) continue;
+    if (!kept.empty()) kept += name[begin - 1];
+    kept += word;
+  }
+  return kept;
+}
+
+/// The names of records that state a motion, such that those share one which differ in what may
+/// count them ("07_sine_5mm_3Hz", "sine_5mm_3Hz_rep2") and move alike.
+std::vector<std::string> shared_names(const std::vector<Record>& records,
+                                      const std::vector<std::string>& names) {
+  struct Moving {
+    Motion motion;
+    std::string name;  ///< of the first that moves so
+  };
+  struct Counted {
+    std::vector<Moving> motions;
+    std::vector<std::size_t> records;
+  };
+  std::vector<std::string> shared = names;
+  std::map<std::string, Counted> all;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    if (!records[k].condition.empty() || !states_motion(names[k])) continue;
+    auto& [motions, counted] = all[without_counters(names[k])];
+    const Motion motion = motion_of(records[k]);
+    auto same = std::ranges::find_if(
+        motions, [&](const Moving& other) { return alike(other.motion, motion); });
+    if (same == motions.end()) same = motions.insert(same, {motion, names[k]});
+    shared[k] = same->name;
+    counted.push_back(k);
+  }
+
+  // Where all move alike, no number tells them apart.
+  for (const auto& [name, counted] : all)
+    if (counted.motions.size() == 1 && counted.records.size() > 1)
+      for (const std::size_t k : counted.records) shared[k] = name;
+  return shared;
+}
+
 /// A drive level in a name, and where it stands there.
 struct NamedLevel {
   KnownLevel level;
@@ -295,7 +347,8 @@ std::optional<KnownLevel> level_of_folder(std::string_view name) {
 }
 
 void infer_conditions(std::vector<Record>& records, const std::vector<std::string>& name_rests) {
-  const std::vector<std::string> stated = without_bare_levels(records, name_rests);
+  const std::vector<std::string> stated =
+      shared_names(records, without_bare_levels(records, name_rests));
   std::vector<std::pair<Motion, std::string>> known;
   for (std::size_t k = 0; k < records.size(); ++k) {
     if (!records[k].condition.empty()) continue;

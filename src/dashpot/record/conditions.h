@@ -26,7 +26,8 @@ std::optional<KnownLevel> level_of_folder(std::string_view name);
 
 /// Gives every record without a condition one: the rest of its name when that states a motion (mm,
 /// Hz), else amplitude and frequency; records within 5 % of each other share one. A bare number in
-/// a name that is the record's drive level ("test_4mm_4Hz_0.5" at 0.5 A) is no part of the motion.
+/// a name that is the record's drive level ("test_4mm_4Hz_0.5" at 0.5 A) is no part of the motion,
+/// nor is what counts records that move alike ("07_sine_5mm_3Hz", "sine_5mm_3Hz_rep2").
 void infer_conditions(std::vector<Record>& records, const std::vector<std::string>& name_rests);
 
 }  // namespace dashpot
