@@ -13,6 +13,7 @@
 #include "dashpot/record/dataset_file.h"
 #include "dashpot/record/doubts.h"
 #include "dashpot/record/drive_levels.h"
+#include "dashpot/record/late_motion.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/record/sources.h"
@@ -551,6 +552,8 @@ class Loader {
         dataset_.suspects.push_back({record.name, why});
     if (auto currents = doubt_about_currents(dataset_.records))
       dataset_.suspects.push_back(std::move(*currents));
+    if (auto timing = doubt_about_timing(dataset_.records))
+      dataset_.suspects.push_back(std::move(*timing));
 
     constexpr std::size_t kShown = 2;
     std::vector<std::string> notes;
