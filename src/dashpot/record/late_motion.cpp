@@ -211,15 +211,19 @@ std::optional<Suspect> doubt_about_timing(std::span<const Record> records) {
   };
   if (!std::ranges::all_of(left, is_told)) return std::nullopt;
 
+  const Record& first = *drives.front().front().record;
+  const double rows = std::round(delays[best] / first.sample_time);
   return Suspect{
-      drives.front().front().record->name,
+      first.name,
       "the motion seems to be recorded some " + format_number(1e3 * delays[best]) +
           " ms later than the force, here and in the other records: the force goes ahead of it, "
           "which no damper's does. Were the motion earlier by that, friction, damping and inertia "
           "would leave " +
           format_number(mean_left(best), 2) +
           " times the squared error. Look at the delay of the displacement's electronics, and move "
-          "its column up by that: models of these records are wrong where the motion is quicker"};
+          "its column up by that (here by " +
+          format_number(rows) +
+          " rows): models of these records are wrong where the motion is quicker"};
 }
 
 }  // namespace dashpot

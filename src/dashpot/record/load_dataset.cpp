@@ -15,6 +15,7 @@
 #include "dashpot/record/drive_levels.h"
 #include "dashpot/record/late_motion.h"
 #include "dashpot/record/readers/reader.h"
+#include "dashpot/record/repeats.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/record/sources.h"
 #include "dashpot/record/stated_conditions.h"
@@ -552,6 +553,8 @@ class Loader {
         dataset_.suspects.push_back({record.name, why});
     if (auto currents = doubt_about_currents(dataset_.records))
       dataset_.suspects.push_back(std::move(*currents));
+    for (Suspect& repeat : doubts_about_repeats(dataset_.records))
+      dataset_.suspects.push_back(std::move(repeat));
     if (auto timing = doubt_about_timing(dataset_.records))
       dataset_.suspects.push_back(std::move(*timing));
 
