@@ -201,15 +201,24 @@ TEST_CASE("a last number that was cut and values of no damper are told") {
   CHECK(contains(only_doubt(unit), "the displacement spans 40 m: is its unit m right?"));
 }
 
-TEST_CASE("a velocity of another size than the displacement's is told with its ratio") {
-  Record record = sound_record();
-  Channel velocity{"velocity", "m/s"};
-  for (const double t : record.time)
-    velocity.samples.push_back(0.04 * std::numbers::pi * std::cos(2 * std::numbers::pi * t));
-  record.channels.push_back(velocity);
-  CHECK(doubts_about(record).empty());
-  for (double& value : samples(record, "velocity")) value *= 25.4;
-  CHECK(contains(only_doubt(record), "the velocity is 25."));
+TEST_CASE("a velocity of another size, sign or time than the displacement's is told") {
+  const auto with_velocity = [](double size, double late) {
+    Record record = sound_record();
+    Channel velocity{"velocity", "m/s"};
+    for (const double t : record.time)
+      velocity.samples.push_back(size * 0.04 * std::numbers::pi *
+                                 std::cos(2 * std::numbers::pi * (t - late)));
+    record.channels.push_back(velocity);
+    return record;
+  };
+  CHECK(doubts_about(with_velocity(1, 0)).empty());
+  CHECK(contains(only_doubt(with_velocity(25.4, 0)), "the velocity is 25."));
+  CHECK(contains(only_doubt(with_velocity(-1, 0)), "one of the two has the other sign"));
+
+  // By a filter behind one of the two, to within half a millisecond or a sample.
+  CHECK(contains(only_doubt(with_velocity(1, 0.012)), "the velocity comes 12 ms later than"));
+  CHECK(contains(only_doubt(with_velocity(0.9, -0.006)), "the velocity comes 6 ms earlier than"));
+  CHECK(doubts_about(with_velocity(1, 0.001)).empty());
 }
 
 TEST_CASE("a channel that was sampled more slowly and held is told with its rate") {

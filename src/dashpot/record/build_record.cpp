@@ -57,10 +57,12 @@ std::string refusal(const RawTable& table, const ColumnUses& uses, bool as_given
                                                 : "displacement (or velocity)";
   const std::string how = as_given ? "names tell channel and unit: 'force [N]', 'x [mm]'"
                           : table.named()
-                              ? "state in a dataset file which column it is: 'channels: "
-                                "{force: {column: NAME, unit: N}}'"
+                              ? "state in a dataset file which columns they are: 'channels: "
+                                "{displacement: {column: NAME, unit: mm}, force: {column: NAME, "
+                                "unit: N}}'"
                               : "no line names the columns: state them by number in a "
-                                "dataset file: 'channels: {force: {column: 2, unit: N}}'";
+                                "dataset file: 'channels: {displacement: {column: 1, unit: mm}, "
+                                "force: {column: 2, unit: N}}'";
   // Familiar names that were refused tell more than the list of all names.
   const auto is_told = [](const std::string& why) {
     return std::ranges::any_of(
@@ -348,7 +350,7 @@ void centre_stroke(Records& stretches, const ColumnUses& uses, bool as_given) {
   }
 }
 
-/// Notes displacement and velocity that were both recorded and run opposite ways.
+/// Notes displacement and velocity in memory that run opposite ways; of files that is a doubt.
 void doubt_directions(Record& record, const ColumnUses& uses) {
   if (!find_use(uses, "displacement") || !find_use(uses, "velocity")) return;
   const std::vector<double>& x = record.channel("displacement").samples;
@@ -722,7 +724,7 @@ std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
   centre(all, uses);
   centre_stroke(all, uses, shared.as_given);
   for (BuiltRecord& built : all) {
-    doubt_directions(built.record, uses);
+    if (shared.as_given) doubt_directions(built.record, uses);
     doubt_one_test(built.record);
     add_velocity(built.record, shared);
     if (!shared.as_given) add_displacement(built.record);

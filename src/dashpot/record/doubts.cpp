@@ -341,27 +341,79 @@ std::optional<std::string> leap_at_an_end(const Samples& values, std::string_vie
   return std::nullopt;
 }
 
-/// A measured velocity that is the displacement's in all but its size.
-std::optional<std::string> wrong_scale(const Record& record, const Samples& displacement) {
-  constexpr double kAlike = 0.9, kMost = 3;
+double mean_square(const Samples& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// The correlation of a measured velocity with the slope of the displacement that many samples
+/// before.
+double velocity_with_slope(const Samples& velocity, const Samples& slope, std::ptrdiff_t later) {
+  double vv = 0, ss = 0, vs = 0;
+  const auto size = static_cast<std::ptrdiff_t>(slope.size());
+  for (std::ptrdiff_t k = std::max<std::ptrdiff_t>(0, -later); k < size && k + later < size; ++k) {
+    const double v = velocity[static_cast<std::size_t>(k + later)],
+                 s = slope[static_cast<std::size_t>(k)];
+    vv += v * v;
+    ss += s * s;
+    vs += v * s;
+  }
+  return vv > 0 && ss > 0 ? vs / std::sqrt(vv * ss) : 0;
+}
+
+/// A measured velocity that comes later than the displacement goes, or earlier: by steps of half a
+/// millisecond and more, up to 20 ms.
+std::optional<std::string> late_velocity(const Record& record, const Samples& velocity,
+                                         const Samples& slope) {
+  constexpr double kStep = 0.5e-3, kLeast = 2e-3, kMost = 20e-3;  // s
+  constexpr double kSame = 0.98, kLess = 0.25;  // correlation, of the difference's square
+  if (!(record.sample_time > 0)) return std::nullopt;
+
+  // The shift with which both are most alike.
+  const auto step = static_cast<std::ptrdiff_t>(std::max(1.0, kStep / record.sample_time));
+  const auto most = static_cast<std::ptrdiff_t>(kMost / record.sample_time);
+  const double at_once = velocity_with_slope(velocity, slope, 0);
+  double alike = at_once;
+  std::ptrdiff_t later = 0;
+  for (std::ptrdiff_t shift = step; shift <= most; shift += step)
+    for (const std::ptrdiff_t either : {shift, -shift})
+      if (const double here = velocity_with_slope(velocity, slope, either); here > alike) {
+        alike = here;
+        later = either;
+      }
+
+  const double delay = static_cast<double>(later) * record.sample_time;
+  if (std::abs(delay) < kLeast || alike < kSame || 1 - alike > kLess * (1 - at_once))
+    return std::nullopt;
+  return "the velocity comes " + format_number(1e3 * std::abs(delay), 3) + " ms " +
+         (delay > 0 ? "later" : "earlier") +
+         " than the displacement goes: one of the two stands behind a filter; 'channels' in a "
+         "dataset file without the late one leaves it out, and it follows from the other";
+}
+
+/// A measured velocity that is not the displacement's: by its sign, its size or its time.
+std::optional<std::string> unlike_velocity(const Record& record, const Samples& displacement) {
+  constexpr double kAlike = 0.9, kAgainst = -0.5, kMost = 3;
   const Channel* const velocity = record.find("velocity");
   if (!velocity || velocity->origin.starts_with("derived")) return std::nullopt;
 
-  // Its correlation with the slope of the displacement, and their ratio.
-  double measured = 0, derived = 0, both = 0;
-  for (std::size_t k = 1; k + 1 < displacement.size(); ++k) {
-    const double slope =
+  Samples slope(displacement.size());
+  for (std::size_t k = 1; k + 1 < displacement.size(); ++k)
+    slope[k] =
         (displacement[k + 1] - displacement[k - 1]) / (record.time[k + 1] - record.time[k - 1]);
-    measured += velocity->samples[k] * velocity->samples[k];
-    derived += slope * slope;
-    both += velocity->samples[k] * slope;
-  }
-  if (!(measured > 0 && derived > 0) || std::abs(both) < kAlike * std::sqrt(measured * derived))
-    return std::nullopt;
-  const double ratio = std::sqrt(measured / derived);
-  if (ratio < kMost && ratio > 1 / kMost) return std::nullopt;
-  return "the velocity is " + format_number(ratio, 3) +
-         " times that of the displacement: the unit of one of them may be wrong";
+  slope.front() = slope[1];
+  slope.back() = slope[slope.size() - 2];
+
+  const double alike = velocity_with_slope(velocity->samples, slope, 0);
+  if (alike < kAgainst)
+    return "displacement falls where velocity is positive: one of the two has the other sign; "
+           "state 'sign: -1' for it in a dataset file";
+  const double ratio = std::sqrt(mean_square(velocity->samples) / mean_square(slope));
+  if (alike >= kAlike && (ratio >= kMost || ratio <= 1 / kMost))
+    return "the velocity is " + format_number(ratio, 3) +
+           " times that of the displacement: the unit of one of them may be wrong";
+  return late_velocity(record, velocity->samples, slope);
 }
 
 /// Spikes are told of where no placeholder is taken for one.
@@ -420,7 +472,7 @@ std::vector<std::string> doubts_about(const Record& record) {
       return stuck ? stuck : dead_displacement(record, x);
     });
     checks.emplace_back([&] { return stuck_velocity(record, x); });
-    checks.emplace_back([&] { return wrong_scale(record, x); });
+    checks.emplace_back([&] { return unlike_velocity(record, x); });
     if (force)
       checks.emplace_back([&] { return clipped_or_stuck_force(record, force->samples, x); });
   }
