@@ -29,13 +29,15 @@ struct Moved {
   double stroke = 0, speed = 0;  ///< m, m/s: from the middle, and the greatest that is usual
 };
 
-/// Nothing where the force's timing cannot be told: no constant drive, or stamps that are uneven.
+/// Nothing where the force's timing cannot be told: no constant drive, stamps that are uneven, or
+/// hardly longer than the delays.
 std::optional<Moved> moved(const Record& record) {
-  constexpr std::size_t kFewest = 200;
+  constexpr double kFewest = 200, kShortest = 10 * kLongest;  // samples, s
   const Channel* velocity = record.find("velocity");
   const Channel* displacement = record.find("displacement");
   if (!record.drive_level || !velocity || !displacement || !record.find("force")) return {};
-  if (!(record.sample_time > 0) || record.size() < kFewest) return {};
+  const auto samples = static_cast<double>(record.size());
+  if (samples < kFewest || !(samples * record.sample_time > kShortest)) return {};
 
   const auto [low, high] = std::ranges::minmax(displacement->samples);
   Moved one{&record, &velocity->samples, acceleration_of(record), 0.5 * (high - low),

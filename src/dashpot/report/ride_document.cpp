@@ -193,7 +193,7 @@ DocumentTable step_table(const RideStudy& study) {
       .rows = {},
       .note = "Ratios to " + study.passive.name() +
               ". Settled: the last instant outside 5 % of the peak (body acceleration) or of the "
-              "step (tyre)."};
+              "step (tyre); '-' where the run ends outside."};
   const std::pair<const char*, const char*> measures[] = {
       {"settling", "body settled, s"},
       {"deviation", "body acceleration, m/s^2"},

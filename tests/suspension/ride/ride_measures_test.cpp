@@ -32,6 +32,14 @@ TEST_CASE("measures of a step: TC-3.6 and TC-10.2") {
   CHECK(std::isnan(value(run, "current")));  // nothing drives it
 }
 
+TEST_CASE("what has not settled by the end of a run has no time of settling") {
+  // Its damper all but locked, the car rings on its tyre for longer than that.
+  const SimulatedRun run =
+      run_of({.plant = "tudon_martinez2012", .dampers = {"viscous,damping=1e6"}}, "step", 6);
+  CHECK(std::isnan(value(run, "settling")));
+  CHECK(std::isnan(value(run, "tyre_settling")));
+}
+
 TEST_CASE("a steady sine: comfort, tyre load, travel and energy in closed form") {
   const VehicleWords words{.plant = "tudon_martinez2012", .dampers = {"viscous,damping=2280"}};
   const SimulatedRun run = run_of(words, "sine,amplitude=2mm,frequency=5", 25);

@@ -147,7 +147,8 @@ class Reading {
     const Samples a = since(body + "_acceleration");
     if (greatest(a) > 0) {
       const StepMeasures step = step_measures(a, dt_, 0, kBand * greatest(a));
-      add("settling", body + " acceleration, settled to 5 % of its peak", "s", step.settling_time);
+      add("settling", body + " acceleration, settled to 5 % of its peak", "s",
+          settled(step, a.size()));
       add("decay_ratio", body + " acceleration, second over first peak", "1",
           step.decay_ratio.value_or(kNoNumber));
       add("deviation", body + " acceleration, greatest", "m/s^2",
@@ -159,9 +160,15 @@ class Reading {
     const Samples tyre = since(vehicle_.set.plant.tyres.front().name + "_deflection");
     if (!(height > 0)) return;
     const StepMeasures step = step_measures(tyre, dt_, 0, kBand * height);
-    add("tyre_settling", "tyre, settled to 5 % of the step", "s", step.settling_time);
+    add("tyre_settling", "tyre, settled to 5 % of the step", "s", settled(step, tyre.size()));
     add("tyre_deviation", "tyre deflection after the step, greatest", "mm",
         1000 * std::abs(step.greatest_deviation));
+  }
+
+  /// s; no number where it is still outside at the last of so many samples.
+  double settled(const StepMeasures& step, std::size_t samples) const {
+    const bool is_settled = step.settling_time < dt_ * (static_cast<double>(samples) - 1.5);
+    return is_settled ? step.settling_time : kNoNumber;
   }
 
   const Vehicle& vehicle_;

@@ -25,8 +25,8 @@ std::string road_end_note(const GroundMotion& ground, double duration);
 
 /// On tyres: comfort of the first coordinate's motion (ISO 2631-1, Wk), dynamic load and contact of
 /// the worst tyre, travel of the worst strut, force and energy of the dampers, current; after a
-/// step settling, decay and deviation. For a building: displacement, drift and acceleration of each
-/// floor.
+/// step settling (NaN where the run ends before it), decay and deviation. For a building:
+/// displacement, drift and acceleration of each floor.
 std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotion& ground,
                                        const Trace& trace, double discard);
 
