@@ -9,7 +9,7 @@
 namespace dashpot {
 namespace {
 
-/// A x = b among the unknowns `free`, the others 0. As a covariance's would, its diagonal keeps
+/// A x = b among the unknowns `free`, the others 0. A little more on the diagonal keeps
 /// columns that say the same apart.
 std::vector<double> least_among(std::span<const double> a, std::span<const double> b,
                                 const std::vector<std::size_t>& free) {
@@ -56,7 +56,7 @@ std::vector<double> solve_non_negative(std::span<const double> matrix,
     b[i] = scale[i] * right[i];
   }
 
-  // Free one unknown after the other. A thousandth may come and go for ever by rounding alone.
+  // Free one unknown after the other, in so many rounds at most: by rounding one may come and go.
   std::vector<std::size_t> free;
   for (std::size_t round = 0; round < 10 * n; ++round) {
     const std::size_t next = steepest_of(a, b, x, free);
