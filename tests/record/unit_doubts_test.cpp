@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dashpot/base/text.h"
 #include "dashpot/dataset.h"
 #include "support.h"
 

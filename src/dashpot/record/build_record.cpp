@@ -14,6 +14,7 @@
 #include "dashpot/record/differentiate.h"
 #include "dashpot/record/inertia.h"
 #include "dashpot/record/integrate.h"
+#include "dashpot/record/joint_velocity.h"
 #include "dashpot/record/side_passes.h"
 #include "dashpot/record/time_base.h"
 #include "dashpot/record/unit_doubts.h"
@@ -441,6 +442,25 @@ void add_velocity(Record& record, const BuildContext& context) {
   }
 }
 
+/// Takes noise off a velocity that was recorded beside the displacement.
+void join_velocity(BuiltRecord& built, const ColumnUses& uses) {
+  constexpr double kMillimetres = 1e3;
+  Record& record = built.record;
+  const ColumnUse* use = find_use(uses, "velocity");
+  if (!use || use->keeps_noise || !find_use(uses, "displacement") || record.sample_time <= 0)
+    return;
+  Channel& velocity = *std::ranges::find(record.channels, "velocity", &Channel::name);
+  std::optional<JointVelocity> joint =
+      joint_velocity(record.channel("displacement").samples, velocity.samples, record.sample_time);
+  if (!joint) return;
+  velocity.samples = std::move(joint->velocity);
+  velocity.origin += ", its noise of " + format_number(kMillimetres * joint->own_noise, 2) +
+                     " mm/s brought to " + format_number(kMillimetres * joint->noise, 2) +
+                     " by the displacement";
+  for (ColumnReading& reading : built.readings)
+    if (reading.channel == "velocity") reading.basis += "; the displacement takes noise off it";
+}
+
 /// Integrates displacement from velocity where no column gives it. Where that cannot be done the
 /// record stays without one, with a note that says why: many models need none.
 void add_displacement(Record& record) {
@@ -726,6 +746,7 @@ std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
   for (BuiltRecord& built : all) {
     if (shared.as_given) doubt_directions(built.record, uses);
     doubt_one_test(built.record);
+    if (!shared.as_given) join_velocity(built, uses);
     add_velocity(built.record, shared);
     if (!shared.as_given) add_displacement(built.record);
   }

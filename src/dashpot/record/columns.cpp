@@ -66,6 +66,7 @@ void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStateme
   use.placed = statement.placed;
   use.directed = statement.directed;
   use.moving_mass = statement.moving_mass;
+  use.keeps_noise = statement.keeps_noise;
 }
 
 ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,

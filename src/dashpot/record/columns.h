@@ -18,7 +18,8 @@ struct ColumnUse {
   bool directed = false;  ///< 'sign' was stated
   bool placed = false;    ///< 'offset' or 'centre' was stated
   bool stated = false;
-  double moving_mass = 0;  ///< kg, between load cell and damper
+  double moving_mass = 0;    ///< kg, between load cell and damper
+  bool keeps_noise = false;  ///< of a velocity: the displacement takes nothing off
   std::string basis;
 };
 

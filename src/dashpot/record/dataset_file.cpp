@@ -108,6 +108,14 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
     throw Error(reader.required("moving_mass").where(),
                 "'moving_mass' is " + format_number(statement.moving_mass) + " kg",
                 "0 or more: what moves between load cell and damper");
+
+  // What the displacement may take off a velocity.
+  const std::string noise = reader.string("noise", "");
+  if (!noise.empty() && (noise != "keep" || statement.channel != "velocity"))
+    throw Error(reader.required("noise").where(),
+                "'noise' of " + statement.channel + " is '" + noise + "'",
+                "it can be 'keep', of velocity");
+  statement.keeps_noise = noise == "keep";
   reader.finish();
   return statement;
 }

@@ -19,10 +19,11 @@ struct ChannelStatement {
   std::size_t index = 0;  ///< from 1; 0: by name
   std::string unit;       ///< "": from the name, else SI
   double scale = 1, offset = 0, sign = 1;
-  bool centre = false;     ///< subtract the record's mean
-  bool placed = false;     ///< 'offset' or 'centre' says where its zero is
-  bool directed = false;   ///< 'sign' says which way is positive
-  double moving_mass = 0;  ///< kg, of force: what moves between load cell and damper
+  bool centre = false;       ///< subtract the record's mean
+  bool placed = false;       ///< 'offset' or 'centre' says where its zero is
+  bool directed = false;     ///< 'sign' says which way is positive
+  double moving_mass = 0;    ///< kg, of force: what moves between load cell and damper
+  bool keeps_noise = false;  ///< of velocity: its noise stays
   std::string where;
 };
 

@@ -41,6 +41,18 @@ TEST_CASE("a family of physics predicts a gap beyond those of its fit") {
   CHECK(contains(far->extrapolations().at(0), "gap is 0.0019"));
 }
 
+TEST_CASE("a family of physics knows the spring of a gap that it has not seen") {
+  VirtualFamily family = small_family();
+  family.gaps = {1e-3, 1.3e-3, 2e-3};
+  family.lengths = {8e-3};
+  family.spring_of_gap = -2;
+  const FitReport report = fit_virtual(virtual_family(family));
+  REQUIRE(report.model);
+  family.gaps = {1.6e-3};
+  family.scatter = 0;
+  CHECK(virtual_esr(*report.model, virtual_family(family)) <= 0.5);
+}
+
 TEST_CASE("coils whose currents are ten times as large give the same family of physics" *
           doctest::test_suite("long")) {
   const VirtualFamily family = small_family();

@@ -17,6 +17,7 @@ struct VirtualFamily {
   int samples = 250;                     // of a record, over three cycles
   double scatter = 0.03, noise = 0.005;  // of the force: builds; of its greatest: the sensor
   double amperes = 1;                    // times which every current stands in the records
+  double spring_of_gap = 0;              // power of the gap in the spring, 0: one for all
 };
 
 /// Yield stress of the truth, Pa: of neither the shape nor the scale of the family paper's.
@@ -27,7 +28,8 @@ inline double virtual_yield_stress(double current, double viscosity) {
 inline Record virtual_record(const VirtualFamily& family, double bore, double gap, double length,
                              double viscosity, double current, int motion, double build,
                              Random& random) {
-  constexpr double kSpring = 1.2e6, kFriction = 15, kDiameter = 26e-3;
+  constexpr double kFriction = 15, kDiameter = 26e-3;
+  const double stiffness = 1.2e6 * std::pow(gap / 1e-3, family.spring_of_gap);
   const double area = bore * 5e-4, width = std::sqrt(bore) * std::numbers::pi * kDiameter;
   const PlateGap plate{length, width, gap};
   const double newtonian = build * area * plate_newtonian_pressure(&plate, viscosity, area);
@@ -56,12 +58,12 @@ inline Record virtual_record(const VirtualFamily& family, double bore, double ga
   std::vector<double> x, v, i, force;
   for (int k = 0; k < family.samples * kParts; ++k) {
     const double t = k * step, speed = half_stroke * rate * std::sin(rate * t);
-    const double pull = spring + kSpring * step * speed;
+    const double pull = spring + stiffness * step * speed;
     double low = 0, high = std::abs(pull);
     for (int n = 0; n < 40; ++n) {
       const double f = 0.5 * (low + high);
       const double flow = f > 0 ? plate_bingham_newtonian(f, yielding) / newtonian : 0;
-      (f + kSpring * step * flow > std::abs(pull) ? high : low) = f;
+      (f + stiffness * step * flow > std::abs(pull) ? high : low) = f;
     }
     spring = std::copysign(0.5 * (low + high), pull);
     if (k % kParts) continue;

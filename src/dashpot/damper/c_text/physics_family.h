@@ -33,6 +33,10 @@ typedef enum PhysicsIndex {
   kLengthOfYield,
   kAreaOfYield,
   kFluidOfYield,
+  kGapOfSpring,
+  kLengthOfSpring,
+  kAreaOfSpring,
+  kFluidOfSpring,
   kPhysicsNumbers
 } PhysicsIndex;
 
@@ -189,11 +193,13 @@ static inline PhysicsElement physics_drawn(const PhysicsReference* r, const doub
   const double area = log(m->piston_area / r->piston_area);
   const double fluid = 0.5 * log(m->viscosity / r->viscosity);
 
-  /* What multiplies the whole force, and the flow beside. */
+  /* What multiplies the whole force, and beside that the flow and its spring. */
   const double all =
       exp(d[0] + n[kGapOfAll] * gap + n[kLengthOfAll] * length + n[kFluidOfAll] * fluid);
   const double flow = d[1] + n[kGapOfYield] * gap + n[kLengthOfYield] * length +
                       n[kAreaOfYield] * area + n[kFluidOfYield] * fluid;
+  const double spring = d[2] + n[kGapOfSpring] * gap + n[kLengthOfSpring] * length +
+                        n[kAreaOfSpring] * area + n[kFluidOfSpring] * fluid;
 
   /* The plate flow of its own gap, at the family's yield stress. */
   const PlateGap drawn = {m->pole_length, m->gap_area / m->gap, m->gap};
@@ -206,7 +212,7 @@ static inline PhysicsElement physics_drawn(const PhysicsReference* r, const doub
   e.seal_stiffness = e.seal / r->stroke * exp(d[2] - n[kSealGive]);
   e.yielding = all * yielding * exp(n[kYieldShare] + flow);
   e.viscous = all * viscous * exp(n[kViscousShare] + flow);
-  e.stiffness = all * r->force / r->stroke * exp(d[2] + n[kStiffness]);
+  e.stiffness = all * r->force / r->stroke * exp(spring + n[kStiffness]);
   e.asymmetry = n[kAsymmetry];
   e.roundness = n[kRoundness];
   e.slow = r->speed * exp(n[kOnset]);

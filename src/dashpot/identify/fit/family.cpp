@@ -226,8 +226,9 @@ LearnedForce fit_physics(const std::vector<FamilyRecord>& records, const Identif
          "standard deviation of what the family gets wrong of a drawing's force, as a share",
          fit.drawing_spread, fit.drawing_spread, fit.drawing_spread});
   report.status = fit.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = "geometry's ridges " + format_number(fit.all_ridge) + " and " +
-                   format_number(fit.yield_ridge) + ", chosen by leaving designs out";
+  report.message = "geometry's ridges " + format_number(fit.ridges.all) + ", " +
+                   format_number(fit.ridges.yield) + " and " + format_number(fit.ridges.spring) +
+                   ", chosen by leaving designs out";
   report.iterations = fit.iterations;
   return {std::make_shared<PhysicsFamily>(fit.physics), fit.build_spread, fit.offset,
           fit.drawing_spread};

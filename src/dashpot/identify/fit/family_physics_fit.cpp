@@ -17,16 +17,13 @@ namespace {
 // What a build and what a record's model error are taken to be, as shares of the force, until
 // left-out dampers have told: their ratio is the ridge of builds.
 constexpr double kBuildSpread = 0.08, kRecordError = 0.05;
-// Ridges of what geometry does to the whole force, and to the flow beyond physics.
+// What geometry's ridges are chosen from.
 constexpr std::array kAllRidges{1e-4, 1e-3, 1e-2, 1e-1}, kYieldRidges{1e-3, 1e-2, 1e-1, 1.0};
+constexpr std::array kSpringRidges{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr double kOffsetRidge = 1e-5;
 // Of the first solution, and of the last one, which begins where that has ended.
 constexpr int kPhysicsIterations = 30, kLastIterations = 10;
 constexpr double kDifferenceStep = 1e-5;  // of the differences
-
-struct Ridges {
-  double all = kAllRidges[1], yield = kYieldRidges[1];
-};
 
 /// Normal equations of a part of the records.
 struct Normal {
@@ -129,13 +126,14 @@ class PhysicsProblem {
     return x;
   }
 
-  double belief(std::size_t k, const Ridges& ridges) const {
+  double belief(std::size_t k, const GeometryRidges& ridges) const {
     if (k == kOffset) return kOffsetRidge;
     if (k > kOffset)
       return kRecordError * kRecordError / (kBuildSpread * kBuildSpread) /
              static_cast<double>(records_.size());
     const PhysicsNumber& number = FamilyPhysics::table()[k];
     if (!number.is_geometry) return number.belief;
+    if (k >= kGapOfSpring) return ridges.spring;
     return k >= kGapOfYield ? ridges.yield : ridges.all;
   }
   double prior(std::size_t k) const { return k < kPhysicsNumbers ? physics_.numbers[k] : 0; }
@@ -149,7 +147,8 @@ class PhysicsProblem {
     return physics_.reference.force * x[kOffset];
   }
 
-  LeastSquaresReport solve_with(const Ridges& ridges, std::vector<double> x, int iterations) const {
+  LeastSquaresReport solve_with(const GeometryRidges& ridges, std::vector<double> x,
+                                int iterations) const {
     // The physical numbers have ranges; what corrects them has none but its ridges.
     LeastSquaresProblem problem;
     problem.residuals = samples_ + unknowns();
@@ -214,8 +213,8 @@ class PhysicsProblem {
     });
   }
 
-  void residuals_of(std::span<const double> x, const Ridges& ridges, std::span<const double> force,
-                    std::span<double> r) const {
+  void residuals_of(std::span<const double> x, const GeometryRidges& ridges,
+                    std::span<const double> force, std::span<double> r) const {
     const double offset = offset_of(x);
     for (std::size_t k = 0; k < records_.size(); ++k)
       for (std::size_t s = first_[k]; s < first_[k + 1]; ++s)
@@ -224,13 +223,14 @@ class PhysicsProblem {
     for (std::size_t k = 0; k < unknowns(); ++k)
       r[samples_ + k] = std::sqrt(belief(k, ridges)) * (x[k] - prior(k));
   }
-  void residuals(std::span<const double> x, const Ridges& ridges, std::span<double> r) const {
+  void residuals(std::span<const double> x, const GeometryRidges& ridges,
+                 std::span<double> r) const {
     std::vector<double> force(samples_);
     forces(x, force);
     residuals_of(x, ridges, force, r);
   }
 
-  void jacobian(std::span<const double> x, const Ridges& ridges, std::span<double> r,
+  void jacobian(std::span<const double> x, const GeometryRidges& ridges, std::span<double> r,
                 std::span<double* const> columns) const {
     std::vector<double> force(samples_), moved(samples_), at(x.begin(), x.end());
     forces(x, force);
@@ -294,7 +294,7 @@ class LeftOutDesigns {
   const FamilyGroups& groups() const { return problem_.groups(); }
 
   /// The step of all unknowns where this design is left out; empty where it is not determined.
-  std::vector<double> step_without(std::size_t design, const Ridges& ridges) const {
+  std::vector<double> step_without(std::size_t design, const GeometryRidges& ridges) const {
     const std::size_t n = problem_.unknowns();
     Normal rest = all_;
     add(rest, designs_[design], -1);
@@ -309,7 +309,7 @@ class LeftOutDesigns {
   }
 
   /// What the weighted squares of all designs change by when each is predicted by the others.
-  double cost(const Ridges& ridges) const {
+  double cost(const GeometryRidges& ridges) const {
     double sum = 0;
     for (std::size_t g = 0; g < designs_.size(); ++g) {
       const std::vector<double> step = step_without(g, ridges);
@@ -323,7 +323,8 @@ class LeftOutDesigns {
 
   /// What all dampers tell of the numbers and the offset, each with its deviations eliminated, and
   /// the ridges: see FamilyPhysics::information.
-  std::vector<double> information(const Ridges& ridges, const FamilyPhysics& physics) const {
+  std::vector<double> information(const GeometryRidges& ridges,
+                                  const FamilyPhysics& physics) const {
     const std::size_t n = problem_.unknowns();
     const auto records = static_cast<double>(problem_.groups().damper.size());
     std::vector<double> all(kPhysicsUnknowns * kPhysicsUnknowns);
@@ -359,7 +360,7 @@ class LeftOutDesigns {
     std::vector<FamilyPhysics::Deviation> deviations;
     double squares_left = 0;  // of all dampers
   };
-  Deviated deviations(const Ridges& ridges) const {
+  Deviated deviations(const GeometryRidges& ridges) const {
     constexpr double kBelief = 1e-5;  // where a damper's records do not tell one
     const std::size_t n = problem_.unknowns();
     Deviated found;
@@ -392,7 +393,7 @@ class LeftOutDesigns {
   }
 
   /// The share by which each damper's force, predicted without its design, is off.
-  std::vector<double> strengths(const Ridges& ridges) const {
+  std::vector<double> strengths(const GeometryRidges& ridges) const {
     const std::size_t n = problem_.unknowns();
     std::vector<double> found;
     for (std::size_t d = 0; d < dampers_.size(); ++d) {
@@ -428,14 +429,17 @@ class LeftOutDesigns {
   std::vector<std::size_t> design_of_;
 };
 
-Ridges best_ridges(const LeftOutDesigns& left_out) {
-  Ridges best;
+GeometryRidges best_ridges(const LeftOutDesigns& left_out) {
+  GeometryRidges best;
   double least = INFINITY;
   for (const double all : kAllRidges)
     for (const double yield : kYieldRidges)
-      if (const double cost = left_out.cost({all, yield}); cost < least) {
+      for (const double spring : kSpringRidges) {
+        const GeometryRidges ridges{all, yield, spring};
+        const double cost = left_out.cost(ridges);
+        if (!(cost < least)) continue;
         least = cost;
-        best = {all, yield};
+        best = ridges;
       }
   return best;
 }
@@ -473,7 +477,8 @@ void add_spreads(const FamilyGroups& groups, const std::vector<double>& strength
 }
 
 /// The spread of builds, and what is expected of a new one before it is measured.
-void add_builds(const LeftOutDesigns& left_out, const Ridges& ridges, FamilyPhysicsFit& fit) {
+void add_builds(const LeftOutDesigns& left_out, const GeometryRidges& ridges,
+                FamilyPhysicsFit& fit) {
   if (const std::vector<double> strengths = left_out.strengths(ridges); !strengths.empty())
     add_spreads(left_out.groups(), strengths, fit);
 
@@ -498,7 +503,7 @@ FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, in
                                     const Monitor& monitor) {
   // Fit with ridges from the middle, then with those that leaving designs out would choose there.
   const PhysicsProblem problem(records, threads, monitor);
-  Ridges ridges;
+  GeometryRidges ridges{kAllRidges[1], kYieldRidges[1], kSpringRidges[1]};
   LeastSquaresReport report = problem.solve_with(ridges, problem.start(), kPhysicsIterations);
   const bool several = problem.groups().designs > 1;
   if (several) {
@@ -509,8 +514,7 @@ FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, in
   FamilyPhysicsFit fit;
   fit.physics = problem.physics_of(report.x);
   fit.offset = problem.offset_of(report.x);
-  fit.all_ridge = ridges.all;
-  fit.yield_ridge = ridges.yield;
+  fit.ridges = ridges;
   fit.converged = report.converged;
   fit.iterations = report.iterations;
   if (several) add_builds(LeftOutDesigns(problem, report.x), ridges, fit);

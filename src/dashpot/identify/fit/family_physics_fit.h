@@ -5,6 +5,11 @@
 
 namespace dashpot {
 
+/// Ridges of what geometry does to the whole force, to the flow beyond physics, and to its spring.
+struct GeometryRidges {
+  double all = 0, yield = 0, spring = 0;
+};
+
 /// The fitted family with the offset of its force and the spread of its builds.
 struct FamilyPhysicsFit {
   FamilyPhysics physics;
@@ -15,7 +20,7 @@ struct FamilyPhysicsFit {
   /// build_spread is of both.
   bool builds_repeat = false;
   double drawing_spread = 0;
-  double all_ridge = 0, yield_ridge = 0;  ///< that leaving designs out has chosen
+  GeometryRidges ridges;  ///< that leaving designs out has chosen
   bool converged = false;
   int iterations = 0;
 };

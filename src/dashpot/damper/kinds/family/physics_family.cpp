@@ -45,6 +45,13 @@ constexpr std::array<PhysicsNumber, kPhysicsNumbers> kTable{{
      true},
     {"fluid_of_yield", "power of the viscosity in the flow, beyond physics", 0, 0, -kWide, kWide,
      true},
+    {"gap_of_spring", "power of the gap in the spring before the flow", 0, 0, -kWide, kWide, true},
+    {"length_of_spring", "power of the pole length in the spring before the flow", 0, 0, -kWide,
+     kWide, true},
+    {"area_of_spring", "power of the piston area in the spring before the flow", 1, 0, -kWide,
+     kWide, true},
+    {"fluid_of_spring", "power of the viscosity in the spring before the flow", 0, 0, -kWide, kWide,
+     true},
 }};
 
 void require_physics(const FamilyPhysics& physics, const std::string& where) {
