@@ -20,7 +20,8 @@ namespace dashpot {
 struct ObserveOptions {
   bool causal = false;  ///< only from the past, as on an ECU; else from the whole recording
   std::vector<ForceError> force;  ///< the errors of the model; empty: found, a quick and a slow one
-  int steps = 0;                  ///< of the filter per sample; 0: as many as its error asks for
+  VelocityShift shift;  ///< of the model; none: found beside the errors, where these are not stated
+  int steps = 0;        ///< of the filter per sample; 0: as many as its error asks for
   double level = 0.9;
   int threads = 0;
   Monitor monitor;
