@@ -38,7 +38,7 @@ Option velocity_shift_option(std::string& word) {
               "how far from the damper's velocity that is by which the model's force goes, as "
               "standard deviation @ time in which it is forgotten: 0.004@0.015",
           .value = "M/S@S",
-          .default_text = "found with the errors of the force"};
+          .default_text = "found with the errors of the force; none where these are stated"};
 }
 
 std::vector<ForceError> force_errors(const std::vector<std::string>& words) {

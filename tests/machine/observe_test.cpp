@@ -365,6 +365,9 @@ TEST_CASE("observe: a plant that states no sensor's noise is told what that does
       observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, {});
   REQUIRE(!report.warnings.empty());
   CHECK(contains(report.warnings.back(), "neither plant nor model says"));
+
+  // Noise that is not known would pass for a shift of the velocity.
+  CHECK(report.noise.shift.deviation == 0);
 }
 
 TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure" *

@@ -619,7 +619,11 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
     const Telling telling{models, setup, usual, of_usual, scale, report.steps};
     LikelyNoise found = most_likely(search, telling, options, 0.1);
     const bool is_stated = !options.force.empty() || options.shift.deviation > 0;
-    if (!is_stated && !options.is_straight) found = with_shift(search, found, telling, options);
+    const bool noise_is_known = std::ranges::all_of(
+        setup.sensors, [](const PlantSensor& sensor) { return sensor.noise > 0; });
+
+    if (noise_is_known && !is_stated && !options.is_straight)
+      found = with_shift(search, found, telling, options);
     report.noise = std::move(found.noise);
   }
 
