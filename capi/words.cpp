@@ -243,6 +243,14 @@ ObserveOptions read_observe_options(const char* text) {
         throw Error("options, force_error", "holds another thing than [N, s]", "[[30, 0.01]]");
       options.force.push_back({numbers[0], numbers[1]});
     }
+
+  // The velocity by which the force goes, likewise: m/s and s.
+  if (const Value* shift = reader.optional("velocity_shift")) {
+    const std::vector<double> numbers = shift->as_numbers();
+    if (numbers.size() != 2 || !(numbers[0] > 0) || !(numbers[1] > 0))
+      throw Error("options, velocity_shift", "is another thing than [m/s, s]", "[0.004, 0.015]");
+    options.shift = {numbers[0], numbers[1]};
+  }
   reader.finish();
   if (!(options.level > 0 && options.level < 1))
     throw Error("options, level", "is " + format_number(options.level), "between 0 and 1");

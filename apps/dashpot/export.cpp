@@ -40,6 +40,7 @@ struct ExportSettings {
   std::vector<std::string> platforms;
   std::string plant;  ///< whose observer is exported
   std::vector<std::string> force_errors;
+  std::string velocity_shift;
   bool sources_only = false, tunable = false;
 };
 
@@ -150,6 +151,7 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   // At the step that is asked for, else that of the model's data.
   ObserveOptions observed;
   observed.force = force_errors(settings.force_errors);
+  observed.shift = velocity_shift(settings.velocity_shift);
   const double sample_time = options.sample_time > 0 ? options.sample_time
                              : file.sample_time > 0  ? file.sample_time
                                                      : 1e-3;
@@ -193,6 +195,7 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
     return observer_block(settings, options, console);
   }
   if (!settings.force_errors.empty()) throw UsageError("--force-error", "goes with --in");
+  if (!settings.velocity_shift.empty()) throw UsageError("--velocity-shift", "goes with --in");
 
   // A controller takes its damper and sensors with it.
   if (!vehicle.controller.empty()) {
@@ -474,6 +477,7 @@ Command export_command() {
                                 "--in-car", "--inverse", "--current-max", "--lag-rate"},
                                ", which exports an observer"}}},
                    force_error_option(settings->force_errors),
+                   velocity_shift_option(settings->velocity_shift),
 
                    // The binary of an FMU.
                    {.names = "--compiler",

@@ -56,7 +56,7 @@ const std::vector<TopicRow>& topic_rows() {
        "The damper in a plant",
        {"bench", "export"},
        {"--in", "--true", "--road", "--push", "--duration", "--hold", "--grade", "--force-error",
-        "--wear"}},
+        "--velocity-shift", "--wear"}},
       {"sensors",
        "The sensors of the bench",
        {"bench"},

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ObserveSettings {
-  std::string model, plant, truth, units, folder = "dashpot-observed";
+  std::string model, plant, truth, units, velocity_shift, folder = "dashpot-observed";
   std::vector<std::string> recordings;
   std::vector<std::string> force_errors;
   double level = 90;
@@ -205,6 +205,12 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
   lines.push_back((report.struts.size() > 1 ? "Errors of each damper's force: "
                                             : "Errors of the model's force: ") +
                   errors + " (--force-error " + words + ").");
+  if (const auto [deviation, memory] = report.noise.shift; deviation > 0)
+    lines.push_back(fmt::format(
+        "The model's force goes by a velocity within {} {} of the damper's, forgotten in {} s "
+        "(--velocity-shift {}@{}).",
+        quantity(deviation, "m/s"), unit_name("m/s"), format_number(memory, 3),
+        format_number(deviation, 3), format_number(memory, 3)));
 
   if (report.forces_known_within > 0)
     lines.push_back("All forces together: within " +
@@ -401,6 +407,7 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   // The work, then what came out of it.
   const ObserveOptions options{.causal = settings.causal,
                                .force = force_errors(settings.force_errors),
+                               .shift = velocity_shift(settings.velocity_shift),
                                .steps = settings.steps,
                                .level = settings.level / 100,
                                .threads = settings.threads,
@@ -465,6 +472,7 @@ Command observe_command() {
             .target = &s.causal,
             .help = "each instant from its past alone, as an ECU knows it"},
            force_error_option(s.force_errors),
+           velocity_shift_option(s.velocity_shift),
            {.names = "--band",
             .target = &s.level,
             .help = "share of the time that the bands are to hold, %",

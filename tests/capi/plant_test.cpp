@@ -87,8 +87,9 @@ TEST_CASE("a damper inside a plant: identified from arrays, then observed") {
   const std::string found = dashpot::format_json(*told.find("found"));
   Recordings estimates;
   Text observed;
-  REQUIRE(dashpot_observe(model, rides, found.c_str(), R"({"force_error": [[1, 0.02]]})", nullptr,
-                          &estimates, &observed) == DASHPOT_OK);
+  REQUIRE(dashpot_observe(model, rides, found.c_str(),
+                          R"({"force_error": [[1, 0.02]], "velocity_shift": [0.004, 0.015]})",
+                          nullptr, &estimates, &observed) == DASHPOT_OK);
   dashpot_record_info info;
   REQUIRE(dashpot_recordings_get_info(estimates, 0, &info) == DASHPOT_OK);
   CHECK(info.samples == record.size());
@@ -99,6 +100,7 @@ TEST_CASE("a damper inside a plant: identified from arrays, then observed") {
   CHECK(std::string(half.name) == "damper_force_half_band");
   CHECK(std::all_of(half.data, half.data + info.samples, [](double h) { return h > 0; }));
   CHECK(contains(observed.handle, "force_errors"));
+  CHECK(contains(observed.handle, "\"deviation_m_s\": 0.004"));
 }
 
 TEST_CASE("dampers inside a plant: the force of each is observed by its strut's name") {
@@ -353,6 +355,10 @@ TEST_CASE("inside a plant: what cannot be is refused with what would be right") 
                                             R"({"steps": 1000000, "force_error": [[5, 1]]})",
                                             nullptr, &estimates, nullptr)),
                  "steps: is 1000000 per sample; 1000 at most"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_observe(known, rides, tenner.c_str(),
+                                                               R"({"velocity_shift": [0.004]})",
+                                                               nullptr, &estimates, nullptr)),
+                 "velocity_shift: is another thing than [m/s, s]"));
   CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_observe(known, rides, kPushedMass, nullptr,
                                                                nullptr, &estimates, nullptr)),
                  "mass"));

@@ -86,6 +86,11 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
       run_dashpot("observe " + model + " --in " + car + ' ' + rides + "/ride_1.csv").output,
       "tyre_stiffness: is unknown"));
   CHECK(contains(run_dashpot(with + ",x@1").output, "--force-error: is 'x@1'; newtons @ seconds"));
+  CHECK(contains(run_dashpot(with + " --velocity-shift 4").output,
+                 "--velocity-shift: is '4'; m/s @ seconds, as 0.004@0.015"));
+  CHECK(contains(run_dashpot(with + " --velocity-shift 0.004@0.02 --output " + seen).output,
+                 "The model's force goes by a velocity within 4 mm/s of the damper's, forgotten in "
+                 "0.02 s (--velocity-shift 0.004@0.02)."));
   CHECK(contains(run_dashpot("observe " + model + ' ' + rides + "/ride_1.csv").output,
                  "--in: is missing"));
 
@@ -161,9 +166,12 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   const std::string c = (folder.path() / "ecu").string();
   const ProgramResult exported =
       run_dashpot("export " + model + " --in " + rides +
-                  "/truth/plant.json --force-error 5@0.01 --to c --name cell --output " + c);
+                  "/truth/plant.json --force-error 5@0.01 --velocity-shift 0.004@0.02 --to c "
+                  "--name cell --output " +
+                  c);
   CHECK(exported.exit_code == 0);
   CHECK(contains(read_file(c + "/cell.h"), "Sensors: az_body (m/s^2), az_wheel (m/s^2)"));
+  CHECK(contains(read_file(c + "/cell.c"), "kFilter = {4, 0, 1, 1, 1, 1, 1, 2, 1, "));
   CHECK(contains(
       run_dashpot("export " + model + " --in " + rides + "/truth/plant.json --to c --output " + c)
           .output,

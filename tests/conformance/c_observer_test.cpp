@@ -23,6 +23,7 @@ TEST_CASE("exported C of an observer: the library's estimates in double and sing
     write(std::string("half_car_") + damper, example_half_car_observer(damper));
     write(std::string("own_drives_") + damper,
           example_half_car_observer(damper, "{front: coil_front, rear: coil_rear}"));
+    write(std::string("shifted_") + damper, example_half_car_observer(damper, "coil", 0.004));
   }
   check_that_it_runs(folder, kAsTheTests);
 }

@@ -12,8 +12,9 @@ struct ExampleObserver {
   dashpot::ObserverNames names;
 };
 
+/// shift: m/s, of the velocity by which the model's force goes.
 inline ExampleObserver example_observer_in(const std::string& plant, const std::string& damper,
-                                           const std::string& drive = "coil") {
+                                           const std::string& drive = "coil", double shift = 0) {
   using namespace dashpot;
   const ParameterSet set = load_parameter_set(damper);
   const InPlantSetup setup = parse_in_plant_setup(
@@ -22,12 +23,13 @@ inline ExampleObserver example_observer_in(const std::string& plant, const std::
       "car.yaml");
   ObserveOptions options;
   options.force = {{30, 0.01}, {20, 0.5}};
+  options.shift = {shift, 0.015};
   const auto model = std::make_shared<LawModel>(set.model);
   return {make_observer(model, usual_domain(set.drive_min, set.drive_max), setup, 1e-3, options),
           observer_names(setup, model->name())};
 }
 
-inline ExampleObserver example_observer(const std::string& damper) {
+inline ExampleObserver example_observer(const std::string& damper, double shift = 0) {
   return example_observer_in(
       "plant: quarter_car\n"
       "parameters:\n"
@@ -41,12 +43,13 @@ inline ExampleObserver example_observer(const std::string& damper) {
       "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
       "  - {channel: az_wheel, quantity: acceleration, at: wheel, noise: 0.5}\n"
       "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n",
-      damper);
+      damper, "coil", shift);
 }
 
 /// The same of a half car with this damper in both struts, on roads that are measured.
 inline ExampleObserver example_half_car_observer(const std::string& damper,
-                                                 const std::string& drive = "coil") {
+                                                 const std::string& drive = "coil",
+                                                 double shift = 0) {
   return example_observer_in(
       "plant: half_car\n"
       "parameters: {mass: 690 kg, inertia: 1222 kg*m^2, front_wheel_mass: 40 kg,\n"
@@ -62,5 +65,5 @@ inline ExampleObserver example_half_car_observer(const std::string& damper,
       "  - {channel: az_rear, quantity: acceleration, at: rear_wheel, noise: 0.5}\n"
       "  - {channel: level, quantity: deflection, at: front, noise: 0.2 mm}\n"
       "  - {channel: cell, quantity: damper_force, at: rear, noise: 20 N}\n",
-      damper, drive);
+      damper, drive, shift);
 }

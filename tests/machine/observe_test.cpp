@@ -265,6 +265,69 @@ TEST_CASE("observe: with the true damper, whose states are in the filter, its me
   CHECK(report.warnings.empty());
 }
 
+TEST_CASE("observe: where a law bends at another velocity than the damper, bands of motion hold") {
+  const ObservedRide ride = spencer_ride(kObservedCar, 8);
+  const auto observed = [&](std::vector<ForceError> force) {
+    return observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded},
+                   {.force = std::move(force)});
+  };
+  const ObserveReport with = observed({}), without = observed({{14, 0.003}, {0.4, 3}});
+  CHECK(with.noise.shift.deviation > 2e-3);
+  CHECK(with.noise.shift.deviation < 8e-3);
+  CHECK(without.noise.shift.deviation == 0);
+  const DamperQuantities places = damper_quantities(0, 1);
+  const auto force = judged(with, ride.truth), force_without = judged(without, ride.truth),
+             velocity = judged(with, ride.truth, places.velocity),
+             velocity_without = judged(without, ride.truth, places.velocity);
+  CHECK(velocity.second > 0.85);
+  CHECK(velocity_without.second < 0.75);
+  CHECK(velocity.first < 0.8 * velocity_without.first);
+  CHECK(force.first < force_without.first);
+  CHECK(force.second > 0.85);
+
+  // A law of the damper's own structure needs none.
+  const ObservedRide short_ride = spencer_ride(kObservedCar, 2);
+  const ObserveReport own = observe(std::make_shared<LawModel>(load_parameters("spencer1997")),
+                                    kCarDomain, short_ride.setup, {short_ride.recorded}, {});
+  CHECK(own.noise.shift.deviation < 5e-4);
+}
+
+TEST_CASE("observe: what a step does with a shifted velocity is in its transition") {
+  const InPlantSetup setup = parse_in_plant_setup(kObservedHalfCar, "car.yaml");
+  const auto damper = std::make_shared<LawModel>(load_parameters("spencer1997"));
+  ObserverScale scale = observer_scale({{damper, kCarDomain}, {damper, kCarDomain}});
+  scale.offset.assign(6, 1e-3);
+  const ObserverNoise noise{
+      .force = {{28, 0.005}}, .shift = {1e-6, 0.01}, .sensors = {0.05, 5e-3, 0.5, 0.5, 2e-4, 2e-4}};
+  const PlantObserver observer(observer_tables(setup, {damper, damper}, noise, scale, 0.001, 2),
+                               {damper, damper});
+  const std::size_t all = observer.tables().all(), moving = observer.tables().moving();
+
+  // From a motion with a shift of the rear damper, as no sensor shows anything: errors of a force
+  // and its shift stand damper by damper behind eight numbers of the plant.
+  constexpr std::size_t kRearShift = 8 + 3;
+  constexpr double kShift = 0.05, kBeside = 1e-4;
+  const std::vector<double> still(3, 0.0), nothing(6, NAN);
+  const auto moved = [&](double shift, ObservedSample& told) {
+    std::vector<double> s(all), c(all * all);
+    for (std::size_t k = 4; k < 8; ++k) s[k] = 0.02 * static_cast<double>(k);
+    s[kRearShift] = shift;
+    for (std::size_t k = 0; k < all; ++k) c[k * all + k] = 1e-12;
+    observer.step(still, still, nothing, s, c, told);
+    return s;
+  };
+  ObservedSample told;
+  const std::vector<double> low = moved(kShift - kBeside, told),
+                            high = moved(kShift + kBeside, told), at = moved(kShift, told);
+  CHECK_CLOSE(at[kRearShift], kShift * std::exp(-0.1), 1e-12, 0);
+  for (std::size_t k = 0; k < moving; ++k) {
+    CAPTURE(k);
+    const double slope = (high[k] - low[k]) / (2 * kBeside);
+    CHECK_CLOSE(told.transition[k * moving + kRearShift], slope, 0.02, 1e-6);
+  }
+  CHECK(std::abs(told.transition[7 * moving + kRearShift]) > 1e-3);  // it moves the rear wheel
+}
+
 TEST_CASE("observe: how well the plant's mass is known is in the bands of the forces") {
   ObservedRide ride = spencer_ride(kObservedCar, 2);
   const auto mass =
@@ -302,6 +365,9 @@ TEST_CASE("observe: a plant that states no sensor's noise is told what that does
       observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded}, {});
   REQUIRE(!report.warnings.empty());
   CHECK(contains(report.warnings.back(), "neither plant nor model says"));
+
+  // Noise that is not known would pass for a shift of the velocity.
+  CHECK(report.noise.shift.deviation == 0);
 }
 
 TEST_CASE("observe: the forces of both dampers of a half car, which are of another structure" *

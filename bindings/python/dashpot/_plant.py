@@ -167,6 +167,7 @@ def observe(
     sample_time: float = 0,
     causal: bool = False,
     force_error: Optional[Iterable[Tuple[float, float]]] = None,
+    velocity_shift: Optional[Tuple[float, float]] = None,
     level: float = 0.9,
     steps: int = 0,
     threads: int = 0,
@@ -179,7 +180,8 @@ def observe(
     rides, plant, sample_time: as of identify_in_plant(); of the plant all numbers must be known (PlantFit.plant).
     A sensor whose noise the plant does not state has that which the identification of plant or model found.
     causal: each instant from its past alone. force_error: errors of the model's force as (N, s in which it is
-    forgotten); None: found. level: share of the time that bands are to hold. steps: of the filter per sample, 0: as
+    forgotten); None: found. velocity_shift: of the velocity by which the model's force goes, (m/s, s in which it is
+    forgotten); None: found where force_error is. level: share of the time that bands are to hold. steps: of the filter per sample, 0: as
     many as its error asks for.
 
     Raises Error at what cannot be used.
@@ -187,6 +189,7 @@ def observe(
     options = {
         "causal": causal,
         "force_error": [list(one) for one in force_error or ()],
+        **({"velocity_shift": list(velocity_shift)} if velocity_shift else {}),
         "level": level,
         "steps": steps,
         "threads": threads,

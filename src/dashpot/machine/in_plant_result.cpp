@@ -138,6 +138,7 @@ Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
   }
 
   // What was taken as uncertain.
+  const VelocityShift& shift = report.noise.shift;
   for (const ForceError& one : report.noise.force)
     errors.push_back(Value::object({{"deviation_N", one.deviation}, {"memory_s", one.memory}}));
   for (const PlantSensor& sensor : setup.sensors)
@@ -146,6 +147,8 @@ Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
                                                        : sensor.identified.from);
   return Value::object({{"plant", setup.model->name},
                         {"force_errors", std::move(errors)},
+                        {"velocity_shift", Value::object({{"deviation_m_s", shift.deviation},
+                                                          {"memory_s", shift.memory}})},
                         {"sensor_noise", Value::array(report.noise.sensors)},
                         {"sensor_noise_from", std::move(origins)},
                         {"roughness_m3", report.noise.roughness},

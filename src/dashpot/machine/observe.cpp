@@ -1,6 +1,7 @@
 #include "dashpot/machine/observe.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <functional>
@@ -63,6 +64,9 @@ class NoiseSearch {
               const ObserverScale& scale, const ObserveOptions& options);
 
   const ObserverNoise& first() const { return noise_; }
+  /// The same from `found` on, beside a shift of the velocity which that has.
+  NoiseSearch beside_shift(const ObserverNoise& found, const ObserverScale& scale,
+                           double sample_time) const;
   std::size_t size() const { return sought_.size(); }
   std::vector<double> start() const {
     std::vector<double> x;
@@ -105,6 +109,7 @@ NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecor
   // A quick error of the model and a slow one, which no single one can stand for.
   noise_.is_straight = options.is_straight;
   noise_.force = options.force;
+  noise_.shift = options.shift;
   if (noise_.force.empty()) {
     noise_.force = {{kFirstForce * scale.force, kFirstQuick * sample_time},
                     {kFirstForce * scale.force, 0.5}};
@@ -130,6 +135,17 @@ NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecor
   if (road->roughness == 0)
     seek([](ObserverNoise& n) { return &n.roughness; }, road_roughness('A') / 4,
          road_roughness('H'));
+}
+
+NoiseSearch NoiseSearch::beside_shift(const ObserverNoise& found, const ObserverScale& scale,
+                                      double sample_time) const {
+  NoiseSearch more = *this;
+  more.noise_ = found;
+  more.seek([](ObserverNoise& n) { return &n.shift.deviation; }, 1e-6 * scale.speed,
+            0.3 * scale.speed);
+  more.seek([](ObserverNoise& n) { return &n.shift.memory; }, std::min(2 * sample_time, kParted),
+            kParted);
+  return more;
 }
 
 using DamperModels = std::vector<std::shared_ptr<const DamperModel>>;
@@ -216,31 +232,50 @@ std::vector<ObservedSamples> samples_of(const InPlantSetup& setup,
   return samples;
 }
 
-/// The uncertainties under which the recordings are most likely, over their first samples.
-ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers,
-                          const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                          const std::vector<ObservedSamples>& samples, const ObserverScale& scale,
-                          int steps, const ObserveOptions& options) {
-  constexpr std::size_t kSettled = 50;  // samples
+/// What uncertainties are found from.
+struct Telling {
+  const DamperModels& dampers;
+  const InPlantSetup& setup;
+  const std::vector<PlantRecording>& recordings;
+  const std::vector<ObservedSamples>& samples;
+  const ObserverScale& scale;
+  int steps;
+
+  /// How unlikely the first samples of the recordings are: -2 log likelihood, less a constant.
+  double misfit_under(const ObserverNoise& noise) const {
+    constexpr std::size_t kSettled = 50;  // samples
+    const std::size_t used = std::max(kTelling / recordings.size(), 4 * kSettled);
+    const std::vector<PlantObserver> observers =
+        observers_of(dampers, setup, recordings, noise, scale, steps);
+    double sum = 0;
+    for (std::size_t r = 0; r < recordings.size(); ++r)
+      sum += misfit(observers[r], samples[r], kSettled, std::min(samples[r].count, used));
+    return sum;
+  }
+};
+
+/// Uncertainties, and how unlikely the recordings are under them.
+struct LikelyNoise {
+  ObserverNoise noise;
+  double misfit = INFINITY;
+};
+
+/// The uncertainties under which the recordings are most likely. begun: progress so far.
+LikelyNoise most_likely(const NoiseSearch& search, const Telling& telling,
+                        const ObserveOptions& options, double begun) {
   constexpr double kStep = 0.01, kWall = 100;
-  const std::size_t used = std::max(kTelling / recordings.size(), 4 * kSettled);
 
   // Beyond the limits the misfit rises steeply.
   const auto misfit_at = [&](std::span<const double> x) {
     const auto [noise, beyond] = search.at(x);
-    double sum = kWall * beyond;
-    const std::vector<PlantObserver> observers =
-        observers_of(dampers, setup, recordings, noise, scale, steps);
-    for (std::size_t r = 0; r < recordings.size(); ++r)
-      sum += misfit(observers[r], samples[r], kSettled, std::min(samples[r].count, used));
-    return sum;
+    return kWall * beyond + telling.misfit_under(noise);
   };
 
   // Differences in every direction, a core each.
   MinimiseOptions solver{.max_iterations = 40, .function_tolerance = 1e-5};
   solver.on_iteration = [&](int iteration, double, std::span<const double>) {
     options.monitor.check();
-    options.monitor.report("uncertainties", 0.1 + 0.015 * iteration);
+    options.monitor.report("uncertainties", begun + 0.0075 * iteration);
     return true;
   };
   const MinimiseReport found = minimise(
@@ -256,7 +291,34 @@ ObserverNoise most_likely(const NoiseSearch& search, const DamperModels& dampers
         return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
       },
       search.start(), solver);
-  return found.x.empty() || !std::isfinite(found.value) ? search.first() : search.at(found.x).first;
+  if (found.x.empty() || !std::isfinite(found.value)) return {search.first()};
+  return {search.at(found.x).first, found.value};
+}
+
+/// The same beside a shift of the velocities by which the models' forces go, where the recordings
+/// are likelier with one by more than two numbers more are worth; else what was found without it.
+/// Source: G. Schwarz, Estimating the dimension of a model, Annals of Statistics 6, 1978.
+LikelyNoise with_shift(const NoiseSearch& search, const LikelyNoise& without,
+                       const Telling& telling, const ObserveOptions& options) {
+  constexpr std::array kFirstShares = {3e-4, 1e-3, 3e-3, 1e-2};  // of the speed
+  constexpr double kFirstMemory = 0.02;                          // s
+
+  // How large it may be, beside all else as it was found.
+  std::array<LikelyNoise, kFirstShares.size()> tried;
+  parallel_for(tried.size(), options.threads, [&](std::size_t k) {
+    tried[k].noise = without.noise;
+    tried[k].noise.shift = {kFirstShares[k] * telling.scale.speed, kFirstMemory};
+    tried[k].misfit = telling.misfit_under(tried[k].noise);
+  });
+  const LikelyNoise& first = *std::ranges::min_element(tried, {}, &LikelyNoise::misfit);
+  if (!(first.misfit < without.misfit)) return without;
+
+  // From there on together.
+  const LikelyNoise with = most_likely(
+      search.beside_shift(first.noise, telling.scale, telling.recordings.front().sample_time),
+      telling, options, 0.4);
+  const double worth = 2 * std::log(static_cast<double>(kTelling * telling.setup.sensors.size()));
+  return with.misfit < without.misfit - worth ? with : without;
 }
 
 /// Where dampers went, for more than a peak or two, or were driven beyond what their models were
@@ -552,9 +614,19 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
     find_starts(models, setup, usual, search.first(), scale, report.steps, of_usual);
   }
   report.noise_was_found = search.size() > 0;
-  report.noise = report.noise_was_found ? most_likely(search, models, setup, usual, of_usual, scale,
-                                                      report.steps, options)
-                                        : search.first();
+  report.noise = search.first();
+  if (report.noise_was_found) {
+    const Telling telling{models, setup, usual, of_usual, scale, report.steps};
+    LikelyNoise found = most_likely(search, telling, options, 0.1);
+
+    // Noise that is not known would pass for a shift; several dampers trade theirs.
+    const bool is_stated = !options.force.empty() || options.shift.deviation > 0;
+    const bool noise_is_known = std::ranges::all_of(
+        setup.sensors, [](const PlantSensor& sensor) { return sensor.noise > 0; });
+    if (models.size() == 1 && noise_is_known && !is_stated && !options.is_straight)
+      found = with_shift(search, found, telling, options);
+    report.noise = std::move(found.noise);
+  }
 
   // Each recording in turn.
   report.forces_known_within = scale_known_within(setup);
@@ -637,6 +709,7 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
   if (options.force.empty())
     throw Error("--force-error", "is not stated", "what 'dashpot observe' prints of this plant");
   noise.force = options.force;
+  noise.shift = options.shift;
   for (const PlantSensor& sensor : setup.sensors) {
     if (!(sensor.noise > 0))
       throw Error("plant, " + sensor.channel, "says nothing of its noise",

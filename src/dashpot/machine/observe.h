@@ -20,7 +20,10 @@ namespace dashpot {
 struct ObserveOptions {
   bool causal = false;  ///< only from the past, as on an ECU; else from the whole recording
   std::vector<ForceError> force;  ///< the errors of the model; empty: found, a quick and a slow one
-  int steps = 0;                  ///< of the filter per sample; 0: as many as its error asks for
+  /// Of the model; none: found beside the errors, where these are not stated, there is one damper
+  /// and the noise of each sensor is known, which would pass for a shift.
+  VelocityShift shift;
+  int steps = 0;  ///< of the filter per sample; 0: as many as its error asks for
   double level = 0.9;
   int threads = 0;
   Monitor monitor;

@@ -226,6 +226,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   ObserverTables t{.plant = static_cast<int>(p),
                    .dampers = static_cast<int>(dampers.size()),
                    .errors = static_cast<int>(noise.force.size()),
+                   .shifts = noise.shift.deviation > 0 ? 1 : 0,
                    .sensors = static_cast<int>(setup.sensors.size()),
                    .steps = steps,
                    .step = sample_time / steps};
@@ -280,11 +281,18 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     road_deviation = std::sqrt(0.5 * density / (2 * forgetting));
     add_random(measured + r, p + r, road_deviation, 1 / forgetting);
   }
-  for (const ForceError& one : noise.force) t.force_keep.push_back(std::exp(-t.step / one.memory));
+  for (const ForceError& one : noise.force) t.error_keep.push_back(std::exp(-t.step / one.memory));
+  const auto shifts = static_cast<std::size_t>(t.shifts), errors = noise.force.size() + shifts;
   for (std::size_t d = 0; d < dampers.size(); ++d)
     for (std::size_t e = 0; e < noise.force.size(); ++e)
-      add_random(inputs.size() + d, error + d * noise.force.size() + e, noise.force[e].deviation,
+      add_random(inputs.size() + d, error + d * errors + e, noise.force[e].deviation,
                  noise.force[e].memory);
+
+  if (shifts > 0) {
+    t.error_keep.push_back(std::exp(-t.step / noise.shift.memory));
+    t.shift_added = 0.5 * std::pow(noise.shift.deviation, 2) *
+                    -std::expm1(-2 * sample_time / noise.shift.memory);
+  }
 
   // What is measured of an input is not quite what it was.
   std::vector<double> input_variance;
@@ -299,8 +307,10 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   for (std::size_t k = 0; k < p; ++k)
     t.difference.push_back(kDifference * (k < n ? scale.stroke : scale.speed));
   for (std::size_t r = 0; r < roads; ++r) t.difference.push_back(kDifference * scale.stroke);
-  t.difference.insert(t.difference.end(), dampers.size() * noise.force.size(),
-                      kDifference * scale.force);
+  for (std::size_t d = 0; d < dampers.size(); ++d) {
+    t.difference.insert(t.difference.end(), noise.force.size(), kDifference * scale.force);
+    t.difference.insert(t.difference.end(), shifts, kDifference * scale.speed);
+  }
   for (const double size : scale.state) t.difference.push_back(kDifference * size);
   t.way = kDifference * scale.stroke;
   t.speed = kDifference * scale.speed;
@@ -315,8 +325,10 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     t.first_deviation.push_back(start * (k < n ? scale.stroke : scale.speed));
   for (std::size_t r = 0; r < roads; ++r)
     t.first_deviation.push_back(setup.from_rest ? start * scale.stroke : road_deviation);
-  for (std::size_t d = 0; d < dampers.size(); ++d)
+  for (std::size_t d = 0; d < dampers.size(); ++d) {
     for (const ForceError& one : noise.force) t.first_deviation.push_back(one.deviation);
+    t.first_deviation.insert(t.first_deviation.end(), shifts, noise.shift.deviation);
+  }
   for (const double size : scale.state)
     t.first_deviation.push_back((setup.from_rest ? kDifference : 1) * size);
   t.first_deviation.insert(t.first_deviation.end(), scale.offset.begin(), scale.offset.end());

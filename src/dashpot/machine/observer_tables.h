@@ -14,9 +14,17 @@ struct ForceError {
   double memory = 0;     ///< s, in which it is forgotten
 };
 
+/// A model's force goes by a velocity beside the damper's, and so bends where the damper's does
+/// not: a shift that comes and goes, a first-order process.
+struct VelocityShift {
+  double deviation = 0;  ///< m/s; 0: there is none
+  double memory = 0;     ///< s, in which it is forgotten
+};
+
 /// What is uncertain of a plant with known dampers, as standard deviations, SI.
 struct ObserverNoise {
   std::vector<ForceError> force;  ///< of a damper's model, their sum; of this size in each damper
+  VelocityShift shift;            ///< of each damper's model
   std::vector<double> sensors;    ///< per sensor, white
   double roughness = 0;           ///< m^3, G_d(n0) of a road that nothing measures
   /// m, how far apart tracks of an isotropic surface are as alike as those of such a road, which a

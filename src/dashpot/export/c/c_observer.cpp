@@ -90,7 +90,7 @@ Outputs outputs_of(const PlantObserver& observer, const ObserverNames& names) {
 /// The tables of the filter and the struct of them.
 std::string filter_code(const ObserverTables& t) {
   const std::pair<const char*, const std::vector<double>*> tables[] = {
-      {"kForceKeep", &t.force_keep},     {"kTransition", &t.transition},
+      {"kErrorKeep", &t.error_keep},     {"kTransition", &t.transition},
       {"kByStart", &t.by_start},         {"kByEnd", &t.by_end},
       {"kDeflection", &t.deflection},    {"kOnGround", &t.on_ground},
       {"kSensorPlant", &t.sensor_plant}, {"kSensorInput", &t.sensor_input},
@@ -107,13 +107,13 @@ std::string filter_code(const ObserverTables& t) {
   // The struct, in its own order.
   std::string sizes, own;
   for (const int size :
-       {t.plant, t.inputs, t.drives, t.roads, t.dampers, t.errors, t.sensors, t.steps})
+       {t.plant, t.inputs, t.drives, t.roads, t.dampers, t.errors, t.shifts, t.sensors, t.steps})
     sizes += std::to_string(size) + ", ";
   for (const int size : t.damper) own += (own.empty() ? "" : ", ") + std::to_string(size);
   return code + "static const int kDamper[] = {" + own +
          "};\n\nstatic const PlantFilter kFilter = {" + sizes + c_number(t.step) + ", " +
          c_number(t.road_keep) + ", kDamper" + places + ", " + c_number(t.way) + ", " +
-         c_number(t.speed) + "};\n\n";
+         c_number(t.speed) + ", " + c_number(t.shift_added) + "};\n\n";
 }
 
 /// A run of signals that are large beside the sensors' noise, and what the library makes of it.

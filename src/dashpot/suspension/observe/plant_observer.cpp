@@ -40,12 +40,13 @@ FilterWithDampers filter_of(const ObserverTables& t,
                                   .roads = t.roads,
                                   .dampers = t.dampers,
                                   .errors = t.errors,
+                                  .shifts = t.shifts,
                                   .sensors = t.sensors,
                                   .steps = t.steps,
                                   .step = t.step,
                                   .road_keep = t.road_keep,
                                   .damper = t.damper.data(),
-                                  .force_keep = t.force_keep.data(),
+                                  .error_keep = t.error_keep.data(),
                                   .transition = t.transition.data(),
                                   .by_start = t.by_start.data(),
                                   .by_end = t.by_end.data(),
@@ -60,7 +61,8 @@ FilterWithDampers filter_of(const ObserverTables& t,
                                   .process = t.process.data(),
                                   .difference = t.difference.data(),
                                   .way = t.way,
-                                  .speed = t.speed};
+                                  .speed = t.speed,
+                                  .shift_added = t.shift_added};
   f.models = models.data();
   return f;
 }

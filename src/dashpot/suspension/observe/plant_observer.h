@@ -13,24 +13,27 @@ namespace dashpot {
 
 /// The most numbers of an estimate, sensors, measured inputs, dampers and numbers of the state of
 /// one.
-constexpr std::size_t kMostObserved = 64, kMostObservedSensors = 12, kMostObservedInputs = 8,
+constexpr std::size_t kMostObserved = 68, kMostObservedSensors = 12, kMostObservedInputs = 8,
                       kMostObservedDampers = 4, kMostObservedDamper = 12;
 
 /// The tables of a filter of a plant, as c_text/plant_filter.h names and orders them. SI.
 struct ObserverTables {
-  int plant = 0, inputs = 0, drives = 1, roads = 0, dampers = 1, errors = 0, sensors = 0, steps = 1;
+  int plant = 0, inputs = 0, drives = 1, roads = 0, dampers = 1, errors = 0, shifts = 0,
+      sensors = 0, steps = 1;
   double step = 0;  ///< s
   double road_keep = 1;
   std::vector<int> damper;  ///< numbers of each one's state
-  std::vector<double> force_keep, transition, by_start, by_end, deflection, on_ground;
+  std::vector<double> error_keep, transition, by_start, by_end, deflection, on_ground;
   std::vector<double> sensor_plant, sensor_input, sensor_slope, sensor_road, sensor_force;
   std::vector<double> sensor_variance, process, difference;
-  double way = 0, speed = 0;  ///< m, m/s
+  double way = 0, speed = 0, shift_added = 0;  ///< m, m/s, (m/s)^2
   std::vector<double>
       first_deviation;  ///< of every number of the estimate, before the first sample
 
   /// Where the states of the dampers begin.
-  std::size_t own() const { return static_cast<std::size_t>(plant + roads + dampers * errors); }
+  std::size_t own() const {
+    return static_cast<std::size_t>(plant + roads + dampers * (errors + shifts));
+  }
   std::size_t moving() const {
     return own() + static_cast<std::size_t>(std::accumulate(damper.begin(), damper.end(), 0));
   }
@@ -57,10 +60,11 @@ struct ObservedSample {
 };
 
 /// An extended Kalman filter of a linear plant with dampers in it: the state of the plant, the road
-/// where nothing measures it, each damper's own state and errors of its force that come and go, and
-/// an offset per sensor, from what the sensors show. The same text is the exported C.
-/// Immutable; estimate (all() numbers) and covariance (all() x all()) are the caller's.
-/// Source: R. E. Kalman 1960; A. Gelb, Applied Optimal Estimation, 1974, for the extended one.
+/// where nothing measures it, each damper's own state, errors of its force that come and go and of
+/// the velocity by which it goes, and an offset per sensor, from what the sensors show. The same
+/// text is the exported C. Immutable; estimate (all() numbers) and covariance (all() x all()) are
+/// the caller's. Source: R. E. Kalman 1960; A. Gelb, Applied Optimal Estimation, 1974, for the
+/// extended one.
 class PlantObserver {
  public:
   /// Throws Error where a damper's states have no rates, so that nothing can be said of small

@@ -5,9 +5,9 @@
  * damper d, may be defined behind it.
  *
  * An estimate s: coordinates of the plant and their velocities; heights of the road where nothing
- * measures it; damper by damper errors of its force, N, that are forgotten sooner or later; damper
- * by damper its own state; the sensors' offsets. All but the offsets move. Its covariance c: a row
- * per number. */
+ * measures it; damper by damper errors of its force, N, that are forgotten sooner or later, and the
+ * shift of the velocity by which its force goes, m/s; damper by damper its own state; the sensors'
+ * offsets. All but the offsets move. Its covariance c: a row per number. */
 #ifndef DASHPOT_PLANT_FILTER_H
 #define DASHPOT_PLANT_FILTER_H
 
@@ -18,12 +18,13 @@ typedef struct PlantFilter {
   int roads;                  /* heights that nothing measures */
   int dampers;                /* at least one */
   int errors;                 /* of each damper's force, at least one */
+  int shifts;                 /* of the velocity that its force goes by: 0 or 1 */
   int sensors;                /* each with an offset */
   int steps;                  /* per sample */
   double step;                /* s */
   double road_keep;           /* the share of a road's height that is left after a step */
   const int* damper;          /* dampers: numbers of its state */
-  const double* force_keep;   /* errors: the share that is left after a step */
+  const double* error_keep;   /* errors + shifts: the share that is left after a step */
   const double* transition;   /* plant x plant, over a step */
   const double* by_start;     /* plant x (inputs + roads + dampers): of inputs, roads and forces */
   const double* by_end;       /* as they are at both ends of a step, straight lines in between */
@@ -38,6 +39,7 @@ typedef struct PlantFilter {
   const double* process;    /* moving x moving: what a sample adds to the covariance */
   const double* difference; /* moving: the step of a difference by each number */
   double way, speed;        /* the same of a damper's motion, m and m/s */
+  double shift_added;       /* half of what a sample adds to the variance of a shift */
 } PlantFilter;
 
 /* What a sample told: rows of sensors x all, what the sensors showed beyond what was expected of
@@ -64,9 +66,14 @@ static inline double filter_force(const PlantFilter* f, int d, const DamperInput
 static inline void filter_advance(const PlantFilter* f, int d, const DamperInput* from,
                                   const DamperInput* to, double dt, double* z);
 
-/* Where the errors of the force of damper d stand, and its own state; behind the last: the end. */
+/* Where the errors of the force of damper d stand, behind them the shift of its velocity if there
+ * is one, and its own state; behind the last: the end. */
 static inline int filter_error(const PlantFilter* f, int d) {
-  return f->plant + f->roads + (d * f->errors);
+  return f->plant + f->roads + (d * (f->errors + f->shifts));
+}
+
+static inline int filter_shift(const PlantFilter* f, int d) {
+  return filter_error(f, d) + f->errors;
 }
 
 static inline int filter_own(const PlantFilter* f, int d) {
@@ -108,12 +115,20 @@ static inline void filter_input(const PlantFilter* f, int d, const double* input
   }
 }
 
+/* Shifts the velocity of damper d, now or after a step, to that by which its force goes. */
+static inline void filter_shift_motion(const PlantFilter* f, int d, const double* s, int after,
+                                       DamperInput* at) {
+  if (f->shifts > 0) {
+    at->velocity += ((after != 0) ? f->error_keep[f->errors] : 1) * s[filter_shift(f, d)];
+  }
+}
+
 /* All errors of a damper's force, now and after a step. */
 static inline double filter_errors(const PlantFilter* f, int d, const double* s, int after) {
   double sum = 0;
   int k;
   for (k = 0; k < f->errors; ++k) {
-    sum += ((after != 0) ? f->force_keep[k] : 1) * s[filter_error(f, d) + k];
+    sum += ((after != 0) ? f->error_keep[k] : 1) * s[filter_error(f, d) + k];
   }
   return sum;
 }
@@ -159,9 +174,11 @@ static inline double filter_difference(double least, double variance) {
   return (variance > (least * least)) ? sqrt(variance) : least;
 }
 
-/* How far a damper's motion and state are uncertain: displacement, velocity, then its numbers. */
+/* How far what a damper's force goes by is uncertain: displacement, velocity with its shift, then
+ * the numbers of its state. */
 static inline void filter_reach(const PlantFilter* f, int d, const double* c, double* reach) {
   const int half = f->plant / 2, all = filter_all(f), own = filter_own(f, d);
+  const int shift = filter_shift(f, d);
   const double* along = &f->deflection[d * half];
   double way = 0, speed = 0;
   int i, k;
@@ -170,6 +187,12 @@ static inline void filter_reach(const PlantFilter* f, int d, const double* c, do
       const double both = along[i] * along[k];
       way += both * c[(i * all) + k];
       speed += both * c[((half + i) * all) + half + k];
+    }
+  }
+  if (f->shifts > 0) {
+    speed += c[(shift * all) + shift];
+    for (k = 0; k < half; ++k) {
+      speed += 2 * along[k] * c[(shift * all) + half + k];
     }
   }
   reach[0] = filter_difference(f->way, way);
@@ -268,9 +291,12 @@ static inline void filter_begin_column(const PlantFilter* f, int d, const Filter
     change->motion[0] += f->deflection[(d * half) + k] * column[k * size];
     change->motion[1] += f->deflection[(d * half) + k] * column[(half + k) * size];
   }
+  if (f->shifts > 0) {
+    change->motion[1] += column[filter_shift(f, d) * size];
+  }
   for (k = 0; k < f->errors; ++k) {
     errors += column[(error + k) * size];
-    change->kept += f->force_keep[k] * column[(error + k) * size];
+    change->kept += f->error_keep[k] * column[(error + k) * size];
   }
   change->start =
       (over->by_first[0] * change->motion[0]) + (over->by_first[1] * change->motion[1]) + errors;
@@ -286,12 +312,15 @@ static inline void filter_end_column(const PlantFilter* f, int d, const FilterDa
   const int half = f->plant / 2, own = filter_own(f, d), width = 4 + f->damper[d];
   int i, k;
 
-  /* Its motion there, and the force by that and by the errors that are left. */
+  /* What its force goes by there, and the force by that and by the errors that are left. */
   change->motion[2] = 0;
   change->motion[3] = 0;
   for (k = 0; k < half; ++k) {
     change->motion[2] += f->deflection[(d * half) + k] * end[k];
     change->motion[3] += f->deflection[(d * half) + k] * end[half + k];
+  }
+  if (f->shifts > 0) {
+    change->motion[3] += f->error_keep[f->errors] * column[filter_shift(f, d) * size];
   }
   change->after = (over->by_last[0] * change->motion[2]) + (over->by_last[1] * change->motion[3]) +
                   change->kept;
@@ -352,8 +381,8 @@ static inline void filter_move_column(const PlantFilter* f, const FilterDamper* 
     column[(f->plant + k) * size] *= f->road_keep;
   }
   for (d = 0; d < f->dampers; ++d) {
-    for (k = 0; k < f->errors; ++k) {
-      column[(filter_error(f, d) + k) * size] *= f->force_keep[k];
+    for (k = 0; k < (f->errors + f->shifts); ++k) {
+      column[(filter_error(f, d) + k) * size] *= f->error_keep[k];
     }
     for (k = 0; k < f->damper[d]; ++k) {
       column[(filter_own(f, d) + k) * size] = change[d].z[k];
@@ -406,6 +435,7 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
     }
     for (d = 0; d < f->dampers; ++d) {
       filter_input(f, d, from, slopes, s, &over[d].first);
+      filter_shift_motion(f, d, s, 0, &over[d].first);
       start[d] =
           filter_force(f, d, &over[d].first, &s[filter_own(f, d)]) + filter_errors(f, d, s, 0);
     }
@@ -414,6 +444,7 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
     /* What depends on what, before the state is overwritten. */
     for (d = 0; d < f->dampers; ++d) {
       filter_input(f, d, to, slopes, end, &over[d].last);
+      filter_shift_motion(f, d, s, 1, &over[d].last);
       after[d] = filter_look(f, d, c, s, &over[d]);
     }
     for (j = 0; j < moving; ++j) {
@@ -423,9 +454,10 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
     filter_linear(f, from, to, &s[f->plant], start, after, s, end);
     for (d = 0; d < f->dampers; ++d) {
       filter_input(f, d, to, slopes, end, &over[d].last);
+      filter_shift_motion(f, d, s, 1, &over[d].last);
       filter_advance(f, d, &over[d].first, &over[d].last, f->step, &s[filter_own(f, d)]);
-      for (k = 0; k < f->errors; ++k) {
-        s[filter_error(f, d) + k] *= f->force_keep[k];
+      for (k = 0; k < (f->errors + f->shifts); ++k) {
+        s[filter_error(f, d) + k] *= f->error_keep[k];
       }
     }
     for (k = 0; k < f->plant; ++k) {
@@ -437,12 +469,23 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
   }
 }
 
+/* What half a sample adds to the covariance of the shifts. They change by chance between samples:
+ * half of that before a transition, through which it moves the plant, and half behind it. */
+static inline void filter_spread_shifts(const PlantFilter* f, double* c) {
+  const int all = filter_all(f);
+  int d;
+  for (d = 0; (f->shifts > 0) && (d < f->dampers); ++d) {
+    c[(filter_shift(f, d) * all) + filter_shift(f, d)] += f->shift_added;
+  }
+}
+
 /* The covariance after a step with this transition: of what moves among itself, then with the
  * offsets. */
 static inline void filter_spread(const PlantFilter* f, const double* transition, double* c) {
   double product[FILTER_MOST * FILTER_MOST];
   const int moving = filter_moving(f), all = filter_all(f);
   int i, j, k;
+  filter_spread_shifts(f, c);
 
   /* The transition times the covariance. */
   for (i = 0; i < moving; ++i) {
@@ -470,6 +513,7 @@ static inline void filter_spread(const PlantFilter* f, const double* transition,
       c[(j * all) + i] = product[(i * all) + j];
     }
   }
+  filter_spread_shifts(f, c);
 }
 
 /* From the sample before to this one, before its sensors are looked at. */
@@ -485,9 +529,11 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
   double reach[FILTER_MOST_DAMPER + 2], by[FILTER_MOST_DAMPER + 2];
   const int half = f->plant / 2, error = filter_error(f, d), own = filter_own(f, d);
   const int moving = filter_moving(f);
+  DamperInput shifted = *at;
   int k;
+  filter_shift_motion(f, d, s, 0, &shifted);
   filter_reach(f, d, c, reach);
-  filter_by_force(f, d, at, &s[own], reach, by);
+  filter_by_force(f, d, &shifted, &s[own], reach, by);
   for (k = 0; k < half; ++k) {
     gradient[k] = by[0] * f->deflection[(d * half) + k];
     gradient[half + k] = by[1] * f->deflection[(d * half) + k];
@@ -498,10 +544,13 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
   for (k = 0; k < f->errors; ++k) {
     gradient[error + k] = 1;
   }
+  if (f->shifts > 0) {
+    gradient[filter_shift(f, d)] = by[1];
+  }
   for (k = 0; k < f->damper[d]; ++k) {
     gradient[own + k] = by[2 + k];
   }
-  return filter_force(f, d, at, &s[own]) + filter_errors(f, d, s, 0);
+  return filter_force(f, d, &shifted, &s[own]) + filter_errors(f, d, s, 0);
 }
 
 /* What each sensor depends on at an estimate, a row of `sample` each, and what it shows beyond what
