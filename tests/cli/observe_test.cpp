@@ -171,7 +171,7 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
                   c);
   CHECK(exported.exit_code == 0);
   CHECK(contains(read_file(c + "/cell.h"), "Sensors: az_body (m/s^2), az_wheel (m/s^2)"));
-  CHECK(contains(read_file(c + "/cell.c"), "kFilter = {4, 0, 1, 1, 1, 1, 1, 2, 1, "));
+  CHECK(contains(read_file(c + "/cell.c"), "kFilter = {4, 0, 1, 1, 1, 1, 1, 3, 1, "));
   CHECK(contains(
       run_dashpot("export " + model + " --in " + rides + "/truth/plant.json --to c --output " + c)
           .output,

@@ -91,7 +91,9 @@ std::array<FamilyPreset, 6> make_presets() {
            "resistances, they take energy out. The flow's field is the yield stress of the "
            "conditions; the seal's friction may grow with the current over the currents of the "
            "fit, so that the coil does not matter. Geometry acts on the flow as physics has it, "
-           "times powers of gap, length, area and viscosity. Every number has a value that it "
+           "and "
+           "on its spring as on a column of fluid, times powers of gap, length, area and "
+           "viscosity. Every number has a value that it "
            "shrinks to, that of physics where there is one; how much is chosen by "
            "leaving designs out of the training.",
        .form = FamilyForm::Physics},
