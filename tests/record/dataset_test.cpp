@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/record/dataset_file.h"
 #include "dashpot/record/mat_bytes.h"
@@ -529,6 +531,42 @@ TEST_CASE("inertia between load cell and damper is taken off where it is stated,
   }
   CHECK(has(message_of([&] { read(", moving_mass: -1"); }), "0 or more"));
   CHECK(has(message_of([&] { read(", moving_mass: .inf"); }), "moving_mass"));
+}
+
+TEST_CASE("a noisy velocity beside the displacement has its noise taken off, or keeps it") {
+  Random random(1);
+  constexpr double w = 2 * std::numbers::pi;
+  std::string text = "x_mm,v_m/s,F_N\n";
+  for (int k = 0; k < 4000; ++k) {
+    const double t = k / 1000.0, v = 0.02 * w * std::cos(w * t);
+    text += format_exact(20 * std::sin(w * t)) + "," + format_exact(v + 5e-3 * random.normal()) +
+            "," + format_exact(800 * v) + "\n";
+  }
+  const auto read = [&](const std::string& velocity) {
+    const TemporaryFolder folder;
+    folder.write("run_1A.csv", text);
+    folder.write(
+        "dataset.yaml",
+        "files:\n  - match: run*.csv\n    channels:\n      displacement: x_mm\n      force: "
+        "F_N\n      velocity: {column: v_m/s" +
+            velocity + "}\n    time: {sample_rate: 1000}\n    level: 1\n");
+    return load(folder.path());
+  };
+  const auto noise = [](const Dataset& data) {
+    const Record& record = data.records.front();
+    double square = 0;
+    for (std::size_t k = 0; k < record.size(); ++k)
+      square += std::pow(
+          record.channel("velocity").samples[k] - 0.02 * w * std::cos(w * record.time[k]), 2);
+    return std::sqrt(square / static_cast<double>(record.size()));
+  };
+  const Dataset joint = read(""), kept = read(", noise: keep");
+  CHECK(noise(joint) < 1e-3);
+  CHECK_CLOSE(noise(kept), 5e-3, 0.1, 0);
+  CHECK(has(joint.records.front().channel("velocity").origin, " mm/s brought to "));
+  CHECK(has(describe(joint), "the displacement takes noise off it"));
+  CHECK_FALSE(has(describe(kept), "takes noise off"));
+  CHECK(has(message_of([&] { read(", noise: take"); }), "it can be 'keep', of velocity"));
 }
 
 TEST_CASE("slow motions say nothing of inertia; a mass belongs to the force") {

@@ -149,9 +149,11 @@ Chart health_chart(std::span<const ChartDay> days, const ChartOptions& options) 
   DaysBefore before(known);
   double sum = 0;
   for (std::size_t d = 0; d < days.size(); ++d) {
+    // What the sound days before lead to expect of this one.
     const DaysBefore::Expected expected = before.of(days[d]);
     ChartPoint point{.expected = expected.value, .scatter = expected.scatter};
     if (days[d].counts && before.count() >= options.reference && expected.scatter > 0) {
+      // By how much it lies below, summed up: an alarm where that is more than chance.
       point.is_judged = true;
       const double t = (days[d].value - expected.value) / expected.scatter;
       point.score = normal_score(expected.degrees, t);
@@ -161,6 +163,8 @@ Chart health_chart(std::span<const ChartDay> days, const ChartOptions& options) 
     }
     point.sum = sum;
     chart.points.push_back(point);
+
+    // Days are sound until then.
     if (days[d].counts && !chart.alarm) before.learn(days[d]);
   }
   if (chart.alarm) add_fall(days, chart);

@@ -119,10 +119,13 @@ std::string without_counters(const std::string& name) {
   constexpr std::string_view kBetween = "_- ";
   std::string kept;
   for (std::size_t begin = 0, end = 0; begin < name.size(); begin = end + 1) {
+    // A word, and whether a unit stands behind it.
     end = std::min(name.find_first_of(kBetween, begin), name.size());
     const std::string word = name.substr(begin, end - begin);
     const std::string behind = lower(name.substr(std::min(end + 1, name.size()), 2));
     const bool has_unit = behind == "mm" || behind == "hz";
+
+    // It counts where it is a number, or letters and then a number.
     const auto digits = std::ranges::find_if_not(word, is_letter);
     const bool counts = digits != word.end() && std::all_of(digits, word.end(), is_digit) &&
                         !(digits == word.begin() && has_unit);
