@@ -49,6 +49,7 @@ double rms(std::span<const double> values) {
 /// Takes off what goes with the displacement, its slope or that one's.
 void take_off_motion(std::span<const double> x, double dt, std::vector<double>& difference) {
   constexpr std::size_t kCount = 4;
+  constexpr double kApart = 1e-12;  // on the diagonal, where two of them say the same
   const std::vector<double> velocity = smooth_derivative(x, dt).slope;
   const std::vector<double> acceleration = implicit_slope(velocity, dt);
   const auto function = [&](std::size_t which, std::size_t k) {
@@ -62,13 +63,15 @@ void take_off_motion(std::span<const double> x, double dt, std::vector<double>& 
     for (std::size_t k = 0; k < x.size(); ++k) size[i] += std::pow(function(i, k), 2);
     size[i] = std::sqrt(size[i]);
   }
-  for (std::size_t k = 0; k < x.size(); ++k)
-    for (std::size_t i = 0; i < kCount; ++i) {
-      right[i] += function(i, k) / size[i] * difference[k];
-      for (std::size_t j = 0; j < kCount; ++j)
-        matrix[i * kCount + j] += function(i, k) / size[i] * function(j, k) / size[j];
+  for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t k = 0; k < x.size(); ++k) right[i] += function(i, k) * difference[k];
+    right[i] /= size[i];
+    for (std::size_t j = 0; j < kCount; ++j) {
+      double both = 0;
+      for (std::size_t k = 0; k < x.size(); ++k) both += function(i, k) * function(j, k);
+      matrix[i * kCount + j] = both / (size[i] * size[j]) + (i == j ? kApart : 0);
     }
-  for (std::size_t i = 0; i < kCount; ++i) matrix[i * kCount + i] += 1e-12;
+  }
   if (!solve_positive_definite(matrix, right, share)) return;
   for (std::size_t k = 0; k < x.size(); ++k)
     for (std::size_t i = 0; i < kCount; ++i) difference[k] -= share[i] * function(i, k) / size[i];
@@ -83,12 +86,14 @@ struct NoisePowers {
 /// is not negative: Fisher's scoring.
 NoisePowers noise_powers(std::span<const double> lines, std::span<const double> gains) {
   constexpr int kIterations = 50;
+  constexpr double kSettled = 1e-4;
   NoisePowers found;
   for (const double line : lines) found.velocity += line / static_cast<double>(lines.size());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const NoisePowers before = found;
     double one = 0, with = 0, gained = 0, right = 0, right_gained = 0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const double expected = found.velocity + found.displacement * gains[k];
+      const double expected = before.velocity + before.displacement * gains[k];
       const double weight = 1 / (expected * expected);
       one += weight;
       with += weight * gains[k];
@@ -102,6 +107,9 @@ NoisePowers noise_powers(std::span<const double> lines, std::span<const double> 
              std::sqrt(kOfWindow * gained / determinant)};
     if (found.velocity <= 0) found.velocity = 0, found.displacement = right_gained / gained;
     if (found.displacement <= 0) found.velocity = right / one, found.displacement = 0;
+    if (std::abs(found.velocity - before.velocity) <= kSettled * found.velocity &&
+        std::abs(found.displacement - before.displacement) <= kSettled * found.displacement)
+      break;
   }
   return found;
 }
