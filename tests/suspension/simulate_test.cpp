@@ -8,6 +8,7 @@
 #include "dashpot/base/random.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/plant.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/ground_sequences.h"

@@ -5,6 +5,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/model_file.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/dampers/damper_state.h"
 #include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"

@@ -92,6 +92,7 @@ class DaysBefore {
 /// The fall of a chart whose alarm stands, from the day on at which it is most likely to have
 /// begun.
 void add_fall(std::span<const ChartDay> days, Chart& chart) {
+  // Back from the alarm: the days whose mean score is the least likely to be chance.
   chart.since = *chart.alarm;
   double scores = 0, judged = 0, most = 0;
   for (std::size_t d = *chart.alarm + 1; d-- > 0 && chart.points[d].sum > 0;) {
@@ -102,6 +103,8 @@ void add_fall(std::span<const ChartDay> days, Chart& chart) {
     most = scores / std::sqrt(judged);
     chart.since = d;
   }
+
+  // Their mean fall, and how well it is known.
   double variance = 0, count = 0;
   for (std::size_t d = chart.since; d <= *chart.alarm; ++d) {
     if (!days[d].counts) continue;

@@ -376,11 +376,14 @@ std::vector<std::string> far_zeros(const InPlantSetup& setup, const ObserverScal
   const double far = leaps ? 2 : 5;  // standard deviations
   std::vector<std::string> told;
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    // The recording in which it is furthest off.
     const ObservedRecording* worst = &report.recordings.front();
     for (const ObservedRecording& one : report.recordings)
       if (std::abs(one.sensors[s].offset) > std::abs(worst->sensors[s].offset)) worst = &one;
     const ObservedSensor& sensor = worst->sensors[s];
     if (!(std::abs(sensor.offset) > far * scale.offset[s])) continue;
+
+    // What that does, and what to do.
     told.push_back(worst->name + ", " + sensor.channel + ": its zero came out at " +
                    format_number(sensor.offset, 3) + ' ' + sensor.unit +
                    ", and was looked for within " + format_number(scale.offset[s], 3) +

@@ -6,6 +6,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/ride_measures.h"

@@ -9,6 +9,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/numerics/median.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/record/side_passes.h"
 #include "dashpot/record/time_base.h"
 #include "dashpot/record/unit_doubts.h"
@@ -341,12 +342,6 @@ std::optional<std::string> leap_at_an_end(const Samples& values, std::string_vie
   return std::nullopt;
 }
 
-double mean_square(const Samples& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return sum / static_cast<double>(values.size());
-}
-
 /// The correlation of a measured velocity with the slope of the displacement that many samples
 /// before.
 double velocity_with_slope(const Samples& velocity, const Samples& slope, std::ptrdiff_t later) {
@@ -409,7 +404,7 @@ std::optional<std::string> unlike_velocity(const Record& record, const Samples& 
   if (alike < kAgainst)
     return "displacement falls where velocity is positive: one of the two has the other sign; "
            "state 'sign: -1' for it in a dataset file";
-  const double ratio = std::sqrt(mean_square(velocity->samples) / mean_square(slope));
+  const double ratio = root_mean_square(velocity->samples) / root_mean_square(slope);
   if (alike >= kAlike && (ratio >= kMost || ratio <= 1 / kMost))
     return "the velocity is " + format_number(ratio, 3) +
            " times that of the displacement: the unit of one of them may be wrong";

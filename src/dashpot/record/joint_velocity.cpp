@@ -6,6 +6,7 @@
 
 #include "dashpot/numerics/filter.h"
 #include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/numerics/spectrum.h"
 #include "dashpot/record/differentiate.h"
 
@@ -38,12 +39,6 @@ std::vector<double> implicit_slope(std::span<const double> x, double dt) {
 double slope_gain(double phase, double dt) {
   const double gain = 3 * std::sin(phase) / (dt * (2 + std::cos(phase)));
   return gain * gain;
-}
-
-double rms(std::span<const double> values) {
-  double square = 0;
-  for (const double value : values) square += value * value;
-  return std::sqrt(square / static_cast<double>(values.size()));
 }
 
 /// Takes off what goes with the displacement, its slope or that one's.
@@ -82,14 +77,15 @@ struct NoisePowers {
   double velocity = 0, displacement = 0, velocity_spread = 0;
 };
 
-/// The likeliest powers under which these lines are velocity + displacement * gains, where either
-/// is not negative: Fisher's scoring.
+/// The likeliest powers under which these lines are velocity + displacement * gains: Fisher's
+/// scoring. Neither is negative; where the velocity has none, nothing else is told.
 NoisePowers noise_powers(std::span<const double> lines, std::span<const double> gains) {
   constexpr int kIterations = 50;
   constexpr double kSettled = 1e-4;
   NoisePowers found;
   for (const double line : lines) found.velocity += line / static_cast<double>(lines.size());
   for (int iteration = 0; iteration < kIterations; ++iteration) {
+    // Each line counts by how far it scatters under the powers so far.
     const NoisePowers before = found;
     double one = 0, with = 0, gained = 0, right = 0, right_gained = 0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -101,11 +97,13 @@ NoisePowers noise_powers(std::span<const double> lines, std::span<const double> 
       right += weight * lines[k];
       right_gained += weight * gains[k] * lines[k];
     }
+
+    // The powers that come nearest to the lines then, which end where they have settled.
     const double determinant = one * gained - with * with;
     found = {(right * gained - right_gained * with) / determinant,
              (right_gained * one - right * with) / determinant,
              std::sqrt(kOfWindow * gained / determinant)};
-    if (found.velocity <= 0) found.velocity = 0, found.displacement = right_gained / gained;
+    if (!(found.velocity > 0)) return {};
     if (found.displacement <= 0) found.velocity = right / one, found.displacement = 0;
     if (std::abs(found.velocity - before.velocity) <= kSettled * found.velocity &&
         std::abs(found.displacement - before.displacement) <= kSettled * found.displacement)
@@ -133,6 +131,19 @@ bool is_noise(std::span<const double> lines, std::span<const double> gains,
   return true;
 }
 
+/// Whether single samples stand out, as where a triangle turns: their spectrum is white as well. By
+/// the fourth moment, which is 3 squares of the second of normal noise, within sqrt(24 / n).
+bool has_leaps(std::span<const double> difference) {
+  constexpr double kDeviations = 4;
+  double second = 0, fourth = 0;
+  for (const double value : difference) {
+    second += value * value;
+    fourth += value * value * value * value;
+  }
+  const auto n = static_cast<double>(difference.size());
+  return fourth * n > (3 + kDeviations * std::sqrt(24 / n)) * second * second;
+}
+
 /// A first-order low-pass forward and backward: its gain is 1 / (1 + (f / cutoff)^2).
 std::vector<double> slow_part(std::span<const double> values, double cutoff_hz, double dt) {
   constexpr double kHighest = 0.45;  // of the sample rate, above which all is slow
@@ -154,11 +165,11 @@ std::optional<JointVelocity> joint_velocity(std::span<const double> x, std::span
   // What the two sensors do not agree on.
   std::vector<double> difference = implicit_slope(x, dt);
   for (std::size_t k = 0; k < v.size(); ++k) difference[k] -= v[k];
-  const double differs = rms(difference);
+  const double differs = root_mean_square(difference);
   take_off_motion(x, dt, difference);
-  const double noisy = rms(difference);
-  if (!(noisy > kLeastNoise * rms(v)) ||
-      differs * differs - noisy * noisy > std::pow(kMostOfMotion * rms(v), 2))
+  const double noisy = root_mean_square(difference);
+  if (!(noisy > kLeastNoise * root_mean_square(v)) ||
+      differs * differs - noisy * noisy > std::pow(kMostOfMotion * root_mean_square(v), 2))
     return {};
 
   // How much of it is of either sensor.
@@ -168,7 +179,7 @@ std::optional<JointVelocity> joint_velocity(std::span<const double> x, std::span
     gains[k] = slope_gain(
         std::numbers::pi * static_cast<double>(k) / static_cast<double>(lines.size() - 1), dt);
   NoisePowers noise = noise_powers(lines, gains);
-  if (!is_noise(lines, gains, noise)) return {};
+  if (!(noise.velocity > 0) || !is_noise(lines, gains, noise) || has_leaps(difference)) return {};
 
   // Whether that pays, with the least noise of the velocity that is likely: where it is small
   // beside that of the slope, it is hardly known.
@@ -181,7 +192,8 @@ std::optional<JointVelocity> joint_velocity(std::span<const double> x, std::span
         noise.velocity * noise.displacement * gain / (noise.velocity + noise.displacement * gain);
   JointVelocity joint{
       {}, std::sqrt(noise.velocity * static_cast<double>(lines.size())), std::sqrt(left)};
-  if (!(joint.own_noise > kLeastNoise * rms(v) && joint.noise < kMostLeft * joint.own_noise))
+  if (!(joint.own_noise > kLeastNoise * root_mean_square(v) &&
+        joint.noise < kMostLeft * joint.own_noise))
     return {};
 
   // What is slow of it is the velocity sensor's noise.

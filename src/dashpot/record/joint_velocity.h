@@ -19,8 +19,8 @@ struct JointVelocity {
 /// (the complementary filter of Higgins 1975, without phase). What goes with the motion in that
 /// difference, a gain or a delay, stays with the velocity.
 /// x m, v m/s, dt s, uniform. None where the noise of v is less than 0.5 % of it or hardly becomes
-/// less, and where the two differ by something else than noise, or by more than a tenth of the
-/// motion.
+/// less, and where the two differ by something else than normal noise, or by more than a tenth
+/// of the motion.
 std::optional<JointVelocity> joint_velocity(std::span<const double> x, std::span<const double> v,
                                             double dt);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/ride/weighting.h"
 #include "support.h"
 

@@ -7,6 +7,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/aligned.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/lanes/lane_pilot.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
 #include "dashpot/suspension/ride/ride.h"

@@ -94,10 +94,13 @@ void take_along(const FilterWithDampers& f, PlantObserver::Known known,
 PlantObserver::PlantObserver(ObserverTables tables,
                              std::vector<std::shared_ptr<const DamperModel>> dampers)
     : tables_(std::move(tables)), dampers_(std::move(dampers)) {
+  // What a filter can follow.
   for (const auto& damper : dampers_)
     if (!damper->flows())
       throw Error(damper->name(), "its states have no rates: a filter cannot follow them",
                   "a law, a hybrid, or a network without a feedback of its force");
+
+  // What the arrays of the filter have room for.
   const auto require = [](std::size_t count, std::size_t most, const std::string& what) {
     if (count > most)
       throw Error("observer", "has " + std::to_string(count) + " " + what,

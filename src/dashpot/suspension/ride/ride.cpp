@@ -9,12 +9,6 @@
 
 namespace dashpot {
 
-double root_mean_square(std::span<const double> x) {
-  double sum = 0;
-  for (const double value : x) sum += value * value;
-  return x.empty() ? 0 : std::sqrt(sum / static_cast<double>(x.size()));
-}
-
 StepMeasures step_measures(std::span<const double> signal, double dt, double final_value,
                            double band) {
   StepMeasures measures;

@@ -31,6 +31,4 @@ Gain gain_at(std::span<const double> y, std::span<const double> u, double dt, do
 /// compared by.
 double gain_integral(std::span<const double> frequency, std::span<const double> gain);
 
-double root_mean_square(std::span<const double> x);
-
 }  // namespace dashpot

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/numerics/constants.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
 #include "dashpot/suspension/trace.h"

@@ -10,6 +10,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/constants.h"
+#include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/ride/ride.h"
 
 namespace dashpot {

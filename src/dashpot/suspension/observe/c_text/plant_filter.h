@@ -142,10 +142,14 @@ static inline void filter_linear(const PlantFilter* f, const double* from, const
   for (i = 0; i < f->plant; ++i) {
     const double* by_start = &f->by_start[i * acting];
     const double* by_end = &f->by_end[i * acting];
+
+    /* The forces; the first damper's begin the sum. */
     double sum = (by_start[first] * force_start[0]) + (by_end[first] * force_end[0]);
     for (k = 1; k < f->dampers; ++k) {
       sum += (by_start[first + k] * force_start[k]) + (by_end[first + k] * force_end[k]);
     }
+
+    /* The plant as it was, the inputs, and the roads, which stand still over a step. */
     for (k = 0; k < f->plant; ++k) {
       sum += f->transition[(i * f->plant) + k] * plant[k];
     }
@@ -182,6 +186,8 @@ static inline void filter_reach(const PlantFilter* f, int d, const double* c, do
   const double* along = &f->deflection[d * half];
   double way = 0, speed = 0;
   int i, k;
+
+  /* Variances of its motion, by those of the plant and by the shift's. */
   for (i = 0; i < half; ++i) {
     for (k = 0; k < half; ++k) {
       const double both = along[i] * along[k];
@@ -195,6 +201,8 @@ static inline void filter_reach(const PlantFilter* f, int d, const double* c, do
       speed += 2 * along[k] * c[(shift * all) + half + k];
     }
   }
+
+  /* As far as each is uncertain, or its table says. */
   reach[0] = filter_difference(f->way, way);
   reach[1] = filter_difference(f->speed, speed);
   for (k = 0; k < f->damper[d]; ++k) {
@@ -284,6 +292,8 @@ static inline void filter_begin_column(const PlantFilter* f, int d, const Filter
   const int half = f->plant / 2, error = filter_error(f, d), own = filter_own(f, d);
   double errors = 0;
   int k;
+
+  /* What its force goes by, and the errors, with what is left of them after the step. */
   change->motion[0] = 0;
   change->motion[1] = 0;
   change->kept = 0;
@@ -298,6 +308,8 @@ static inline void filter_begin_column(const PlantFilter* f, int d, const Filter
     errors += column[(error + k) * size];
     change->kept += f->error_keep[k] * column[(error + k) * size];
   }
+
+  /* The force by all of these and by its state. */
   change->start =
       (over->by_first[0] * change->motion[0]) + (over->by_first[1] * change->motion[1]) + errors;
   for (k = 0; k < f->damper[d]; ++k) {
@@ -531,9 +543,13 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
   const int moving = filter_moving(f);
   DamperInput shifted = *at;
   int k;
+
+  /* Slopes of its model, as far as what it goes by is uncertain. */
   filter_shift_motion(f, d, s, 0, &shifted);
   filter_reach(f, d, c, reach);
   filter_by_force(f, d, &shifted, &s[own], reach, by);
+
+  /* By the plant, then by its own errors, shift and state; by nothing of the others. */
   for (k = 0; k < half; ++k) {
     gradient[k] = by[0] * f->deflection[(d * half) + k];
     gradient[half + k] = by[1] * f->deflection[(d * half) + k];
