@@ -18,23 +18,6 @@ namespace {
 constexpr std::size_t kFewestToDerive = 4;
 constexpr std::size_t kThreadsPay = 100'000;  // samples from which threads pay
 
-/// Central differences in place, one-sided of second order at the ends.
-void to_slope(std::vector<double>& x, double dt) {
-  const std::size_t last = x.size() - 1;
-  const double first_slope = (-3 * x[0] + 4 * x[1] - x[2]) / (2 * dt);
-  const double last_slope = (3 * x[last] - 4 * x[last - 1] + x[last - 2]) / (2 * dt);
-
-  // Overwrite from the left, keeping the one value that the next difference still needs.
-  double before = x[0];
-  for (std::size_t i = 1; i < last; ++i) {
-    const double here = x[i];
-    x[i] = (x[i + 1] - before) / (2 * dt);
-    before = here;
-  }
-  x[0] = first_slope;
-  x[last] = last_slope;
-}
-
 double rms_difference(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
@@ -112,6 +95,24 @@ Derivative chosen_by_the_motion(std::span<const double> x, double dt) {
 
 }  // namespace
 
+std::vector<double> slope_of(std::span<const double> x, double dt) {
+  const std::size_t last = x.size() - 1;
+  std::vector<double> slope(x.size());
+  slope[0] = (-3 * x[0] + 4 * x[1] - x[2]) / (2 * dt);
+  slope[last] = (3 * x[last] - 4 * x[last - 1] + x[last - 2]) / (2 * dt);
+
+  // Elimination from the left, where the ends are known. Its factors settle on 2 - sqrt(3) to the
+  // last digit within so many samples.
+  constexpr std::size_t kSettled = 16;
+  std::array<double, kSettled> factors{};
+  for (std::size_t k = 1; k < kSettled; ++k) factors[k] = 1 / (4 - factors[k - 1]);
+  for (std::size_t k = 1; k < last; ++k)
+    slope[k] = (3 / dt * (x[k + 1] - x[k - 1]) - slope[k - 1]) * factors[std::min(k, kSettled - 1)];
+  for (std::size_t k = last - 1; k > 0; --k)
+    slope[k] -= factors[std::min(k, kSettled - 1)] * slope[k + 1];
+  return slope;
+}
+
 std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
                                              double cutoff_hz) {
   if (x.size() < kFewestToDerive)
@@ -120,9 +121,7 @@ std::vector<double> differentiate_zero_phase(std::span<const double> x, double d
   const std::vector<Biquad> lowpass = butterworth_lowpass(2, cutoff_hz, dt);
   // Within two periods of the cut-off the filter forgets its start to exp(-2 pi sqrt(2)) = 1e-4.
   const auto margin = static_cast<std::size_t>(std::ceil(2 / (cutoff_hz * dt)));
-  std::vector<double> velocity = filter_zero_phase(lowpass, x, margin);
-  to_slope(velocity, dt);
-  return velocity;
+  return slope_of(filter_zero_phase(lowpass, x, margin), dt);
 }
 
 double choose_cutoff_hz(std::span<const double> x, double dt) {

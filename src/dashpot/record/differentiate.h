@@ -4,10 +4,14 @@
 
 namespace dashpot {
 
+/// Its slope, per s; dt s, uniform, 3 samples or more. By the compact differences of order four
+/// (Lele, J. Comput. Phys. 103, 1992, eq. 2.1.6), s[k-1] + 4 s[k] + s[k+1] = 3 (x[k+1] - x[k-1]) /
+/// dt, which is 0.1 % off for a sine with ten samples in a period; one-sided at the ends.
+std::vector<double> slope_of(std::span<const double> x, double dt);
+
 /// Velocity from displacement: second-order Butterworth low-pass at cutoff_hz applied forward and
-/// backward (zero phase, -6 dB at the cut-off), then central differences (one-sided at the ends).
-/// dt s, uniform. Throws Error when the cut-off is not below half the sample rate or fewer than 4
-/// samples.
+/// backward (zero phase, -6 dB at the cut-off), then slope_of(). dt s, uniform. Throws Error when
+/// the cut-off is not below half the sample rate or fewer than 4 samples.
 std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
                                              double cutoff_hz);
 

@@ -16,26 +16,7 @@ namespace {
 // By how much more than independent ones the squares of lines under a window scatter.
 constexpr double kOfWindow = 2;
 
-/// The slope by differences that are implicit and of order four:
-/// s[k-1] + 4 s[k] + s[k+1] = 3 (x[k+1] - x[k-1]) / dt. Of a sine with ten samples in a period it
-/// is 0.1 % off.
-std::vector<double> implicit_slope(std::span<const double> x, double dt) {
-  const std::size_t last = x.size() - 1;
-  std::vector<double> slope(x.size()), upper(x.size());
-  slope[0] = (-3 * x[0] + 4 * x[1] - x[2]) / (2 * dt);
-  slope[last] = (3 * x[last] - 4 * x[last - 1] + x[last - 2]) / (2 * dt);
-
-  // Elimination from the left, where the ends are known.
-  for (std::size_t k = 1; k < last; ++k) {
-    const double diagonal = 4 - upper[k - 1];
-    upper[k] = 1 / diagonal;
-    slope[k] = (3 * (x[k + 1] - x[k - 1]) / dt - slope[k - 1]) / diagonal;
-  }
-  for (std::size_t k = last - 1; k > 0; --k) slope[k] -= upper[k] * slope[k + 1];
-  return slope;
-}
-
-/// What the implicit slope makes of noise at this phase from sample to sample, 1/s^2.
+/// What slope_of() makes of noise at this phase from sample to sample, 1/s^2.
 double slope_gain(double phase, double dt) {
   const double gain = 3 * std::sin(phase) / (dt * (2 + std::cos(phase)));
   return gain * gain;
@@ -46,7 +27,7 @@ void take_off_motion(std::span<const double> x, double dt, std::vector<double>& 
   constexpr std::size_t kCount = 4;
   constexpr double kApart = 1e-12;  // on the diagonal, where two of them say the same
   const std::vector<double> velocity = smooth_derivative(x, dt).slope;
-  const std::vector<double> acceleration = implicit_slope(velocity, dt);
+  const std::vector<double> acceleration = slope_of(velocity, dt);
   const auto function = [&](std::size_t which, std::size_t k) {
     const double values[kCount] = {1, x[k], velocity[k], acceleration[k]};
     return values[which];
@@ -163,7 +144,7 @@ std::optional<JointVelocity> joint_velocity(std::span<const double> x, std::span
   if (x.size() < kFewest) return {};
 
   // What the two sensors do not agree on.
-  std::vector<double> difference = implicit_slope(x, dt);
+  std::vector<double> difference = slope_of(x, dt);
   for (std::size_t k = 0; k < v.size(); ++k) difference[k] -= v[k];
   const double differs = root_mean_square(difference);
   take_off_motion(x, dt, difference);
