@@ -67,7 +67,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .takes = Takes::File,
        .meaning = model_named,
        .default_text = join(settings.models, ","),
-       .details = "; 'usual' stands for " + join(usual_models(), ", ") +
+       .details = "; 'usual' stands for " + join(usual_models(), ", ") + " and their mean" +
                   " (passive_network_one_sensor where the records have no displacement), as far "
                   "as the time allows; 'all' for every model of one damper that 'dashpot models' "
                   "lists, 'family' for those of a family of dampers"},

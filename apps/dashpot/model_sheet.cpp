@@ -236,6 +236,8 @@ void describe(ModelSheet& sheet, const PassiveHybridPreset& preset) {
   ++sheet.numbers;  // the share
 }
 
+void describe_mean(ModelSheet& sheet) { add_states(sheet, 1, "those of its members"); }
+
 template <auto presets>
 void describe_preset(ModelSheet& sheet) {
   describe(sheet, find_preset(presets(), sheet.name));
@@ -256,6 +258,7 @@ constexpr std::array kDescriptions{
     KindDescription{ModelKind::Hybrid, describe_preset<hybrid_presets>},
     KindDescription{ModelKind::PassiveHybrid, describe_preset<passive_hybrid_presets>},
     KindDescription{ModelKind::Family, describe_preset<family_presets>},
+    KindDescription{ModelKind::Mean, describe_mean},
 };
 
 std::vector<std::string> cells(const ParameterLine& p) {
@@ -306,6 +309,8 @@ ModelSheet model_sheet(const std::string& name) {
                    .inputs = info.inputs,
                    .settings = network_settings_of(name)};
   if (is_law(name)) sheet.dissipates = find_law(name).dissipates;
+  if (info.kind == ModelKind::Mean)
+    sheet.dissipates = "Where all of its members do: what they take out adds up.";
   if (info.kind == ModelKind::PassiveHybrid)
     sheet.dissipates = "The network always; the law at constant drive. The law: " +
                        std::string(info.law->dissipates);

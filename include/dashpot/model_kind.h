@@ -24,6 +24,7 @@ enum class ModelKind {
   Hybrid,
   PassiveHybrid,
   Family,
+  Mean,
   Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
 };
 constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
@@ -45,6 +46,7 @@ inline constexpr std::array kModelKindNames{
     ModelKindName{ModelKind::Hybrid, "hybrid"},
     ModelKindName{ModelKind::PassiveHybrid, "passive_hybrid"},
     ModelKindName{ModelKind::Family, "family"},
+    ModelKindName{ModelKind::Mean, "mean"},
 };
 
 namespace detail {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "damper/kinds/family/example_family.h"
@@ -14,6 +15,7 @@
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/law_side.h"
 #include "dashpot/damper/registry.h"
@@ -85,6 +87,20 @@ std::vector<Member> beyond_their_ranges(std::vector<Member> two) {
   return two;
 }
 
+/// Their mean, each weighted by its place, moved by 2 N.
+template <class... Models>
+dashpot::MeanModel mean_of(const Models&... models) {
+  std::vector<dashpot::MeanModel::Member> members;
+  const auto add = [&](const auto& model) {
+    constexpr auto kCount = static_cast<double>(sizeof...(models));
+    const auto place = static_cast<double>(members.size() + 1);
+    members.push_back({std::shared_ptr<const dashpot::DamperModel>(model.with_offset(0)),
+                       place / (kCount * (kCount + 1) / 2)});
+  };
+  (add(models), ...);
+  return dashpot::MeanModel(std::move(members), 2);
+}
+
 /// Every law, laws from files, and every other kind of model.
 inline std::vector<ExampleModel> example_models() {
   using namespace dashpot;
@@ -123,6 +139,17 @@ inline std::vector<ExampleModel> example_models() {
   add("fuzzy", example_fuzzy());
   add("hybrid", example_hybrid());
   add("passive_hybrid", example_passive_hybrid());
+  add("mean_of_laws", mean_of(example_law(find_law("bouc_wen")), example_law(find_law("bouc_wen")),
+                              example_law(find_law("tanh_kwok"))));
+  add("mean_of_networks",
+      mean_of(
+          HysteresisNetworkModel("hysteresis_network",
+                                 {example_hysteresis_network(1), example_hysteresis_network(2)}, 2),
+          StateSpaceModel("neural_state_space", {example_state_space(1)}),
+          PassiveNetworkModel("passive_network", {example_passive_network(1)}),
+          NetworkModel("mlp_one_sensor", inputs, {example_mlp(1)})));
+  add("mean_of_hybrids", mean_of(example_hybrid(), example_passive_hybrid(), example_fuzzy(),
+                                 example_law(example_law_text()->law())));
   add("family_gated", example_family());
   add("family_residual", example_family(FamilyTarget::Residual));
   add("family_network", example_family_network());

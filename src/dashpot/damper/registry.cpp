@@ -13,6 +13,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/law/law_text.h"
+#include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/network_model.h"
@@ -39,6 +40,8 @@ void list_laws(std::vector<ModelInfo>& models) {
   for (const Law* law : laws()) models.push_back(info_of(*law));
 }
 
+void list_mean(std::vector<ModelInfo>& models) { models.push_back(mean_info()); }
+
 template <auto presets>
 void list(std::vector<ModelInfo>& models) {
   for (const auto& preset : presets()) models.push_back(preset.info());
@@ -63,6 +66,7 @@ constexpr std::array kKinds{
     KindRow{ModelKind::PassiveHybrid, list<passive_hybrid_presets>,
             read<passive_hybrid_model_from_json>},
     KindRow{ModelKind::Family, list<family_presets>, read<family_model_from_json>},
+    KindRow{ModelKind::Mean, list_mean, read<mean_model_from_json>},
 };
 
 const std::vector<ModelInfo>& models() {

@@ -7,6 +7,7 @@
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
 #include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/passive_hybrid/passive_hybrid_model.h"
@@ -64,6 +65,7 @@ constexpr std::array kCodes{
     KindCode{ModelKind::Hybrid, code_of<HybridModel, c_hybrid>},
     KindCode{ModelKind::PassiveHybrid, code_of<PassiveHybridModel, c_passive_hybrid>},
     KindCode{ModelKind::Family, code_of_family},
+    KindCode{ModelKind::Mean, code_of<MeanModel, c_mean>},
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ class FuzzyModel;
 class HybridModel;
 class HysteresisNetworkModel;
 class LawModel;
+class MeanModel;
 class NarxModel;
 class NetworkModel;
 class PassiveHybridModel;
@@ -64,6 +65,7 @@ CModel c_fuzzy(const FuzzyModel& model);
 CModel c_hybrid(const HybridModel& model);
 CModel c_passive_hybrid(const PassiveHybridModel& model);
 CModel c_family(const FamilyModel& model, bool settable = false);
+CModel c_mean(const MeanModel& model);
 /// Behind a settable c_family() by physics: double family_plate_flow(const DamperInput* input,
 /// const double* state), the force of the plate flow alone, N, without what the fit has learnt.
 std::string c_family_plate_flow(const FamilyModel& model);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "dashpot/base/text.h"
@@ -108,6 +109,32 @@ std::string with_words(std::string_view comment, Replace&& replaced) {
   return out;
 }
 
+/// The names that stand, outside of all brackets, before what ends a declarator or opens a body,
+/// those behind #define, and those within the braces of an enumeration.
+std::set<std::string_view> defined_names(std::vector<CToken> tokens) {
+  std::erase_if(tokens,
+                [](const CToken& t) { return t.kind == Kind::Space || t.kind == Kind::Comment; });
+  std::set<std::string_view> names;
+  int depth = 0;
+  bool enumerates = false;
+  for (std::size_t k = 0; k + 1 < tokens.size(); ++k) {
+    const CToken& token = tokens[k];
+    const CToken& next = tokens[k + 1];
+    if (token.in_directive) {
+      if (token.is("define")) names.insert(next.text);
+      continue;
+    }
+    if (token.is("enum")) enumerates = true;
+    if (token.is("{") || token.is("(") || token.is("[")) ++depth;
+    if (token.is("}") || token.is(")") || token.is("]")) --depth;
+    if (token.is("}")) enumerates = false;
+    if (token.kind != Kind::Word) continue;
+    const bool ends = next.is("(") || next.is("[") || next.is("=") || next.is(";") || next.is("{");
+    if ((depth == 0 && ends) || (depth == 1 && enumerates)) names.insert(token.text);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string in_precision(std::string_view code, CPrecision precision) {
@@ -129,6 +156,16 @@ std::string with_prefix(std::string_view code, std::string_view prefix) {
     out += is_comment                 ? with_words(token.text, renamed)
            : token.kind == Kind::Word ? renamed(token.text)
                                       : std::string(token.text);
+  }
+  return out;
+}
+
+std::string with_own_names(std::string_view code, std::string_view before) {
+  const std::set<std::string_view> own = defined_names(c_tokens(code));
+  std::string out;
+  for (const CToken& token : c_tokens(code)) {
+    if (token.kind == Kind::Word && own.contains(token.text)) out += before;
+    out += token.text;
   }
   return out;
 }

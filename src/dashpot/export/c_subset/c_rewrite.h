@@ -22,6 +22,11 @@ std::string in_precision(std::string_view code, CPrecision precision);
 /// too, but not in strings.
 std::string with_prefix(std::string_view code, std::string_view prefix);
 
+/// Every name that the code defines at file scope, its macros and the words of its enumerations
+/// included, with `before` in front of it wherever it stands: so that two codes may stand in one
+/// file.
+std::string with_own_names(std::string_view code, std::string_view before);
+
 /// Throws Error where an interface with this prefix would have names that the code has inside.
 void require_free_names(const std::string& prefix, std::string_view code);
 

@@ -26,6 +26,13 @@ FitReport fit_law_named(std::string_view model, const std::vector<Record>& train
   return fit_law(find_law(model), training, drive_unit, options);
 }
 
+FitReport refuse_mean(std::string_view model, const std::vector<Record>&, DriveUnit,
+                      const IdentifyOptions&) {
+  throw Error(
+      std::string(model), "is made of other models",
+      "rank it together with two or more of these: --models tanh_kwok,passive_network,mean");
+}
+
 template <auto presets, auto fit>
 FitReport fit_preset(std::string_view model, const std::vector<Record>& training,
                      DriveUnit drive_unit, const IdentifyOptions& options) {
@@ -71,6 +78,7 @@ constexpr std::array kFits{
             always<kOfPassive>},
     KindFit{ModelKind::Family, fit_preset<family_presets, fit_family>, settings_of_family,
             Trainer::Adam},
+    KindFit{ModelKind::Mean, refuse_mean, always<kNone>},
 };
 
 }  // namespace

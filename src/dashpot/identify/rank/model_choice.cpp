@@ -14,7 +14,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double kCores = 2;  // that a budget is stated for
+constexpr double kCores = 2;                // that a budget is stated for
+constexpr std::string_view kMean = "mean";  // of the other models of a group
 
 /// CPU seconds of one fit of a model: so much whatever the records, so much per thousand samples of
 /// them, up to as many as the fit reads; and of passive networks per million steps of training.
@@ -93,6 +94,7 @@ std::vector<std::string> models_of(const std::string& word, const std::vector<Re
     std::erase_if(names, [&](const std::string& name) {
       return (model_info(name).kind == ModelKind::Family) != (word == "family");
     });
+    if (word == "all") names.emplace_back(kMean);
     return names;
   }
   if (word != "usual") return {word};
@@ -107,6 +109,7 @@ std::vector<std::string> models_of(const std::string& word, const std::vector<Re
   if (!has_displacement(records))
     std::ranges::replace(names, std::string("passive_network"),
                          std::string("passive_network_one_sensor"));
+  names.emplace_back(kMean);
   return names;
 }
 
@@ -153,6 +156,7 @@ double expected_seconds(const std::string& model, const Divisions& divisions, Dr
   constexpr double kThousand = 1000;
   const FitCost cost = cost_of(model);
   double seconds = 0;
+  if (model_info(model).kind == ModelKind::Mean) return seconds;
   for (const std::vector<Record>* training : fits_of(divisions)) {
     double samples = 0;
     for (const Record& record : *training) samples += static_cast<double>(record.size());
@@ -216,7 +220,8 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
   std::vector<Candidate> candidates;
   for (const std::string& name : chosen.names) {
     const bool named = std::ranges::find(words.models, name) != words.models.end();
-    if (named || model_info(name).kind == ModelKind::Family) continue;
+    const ModelKind kind = model_info(name).kind;
+    if (named || kind == ModelKind::Family || kind == ModelKind::Mean) continue;
     candidates.push_back({name, expected_seconds(name, divisions, dataset.drive_unit, design),
                           std::ranges::find(usual, name) - usual.begin()});
   }
@@ -225,6 +230,8 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
   });
 
   // Try them up to the first that the budget does not reach.
+  const auto fitted = static_cast<std::size_t>(std::ranges::count_if(
+      chosen.names, [](const std::string& n) { return model_info(n).kind != ModelKind::Mean; }));
   FitBudget budget{.minutes = minutes};
   double spent = 0;  // minutes, with those that stay untried
   for (const Candidate& candidate : candidates) {
@@ -232,7 +239,7 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
     spent += own;
     if (spent <= minutes) {
       budget.expected_minutes = spent;
-    } else if (&candidate == &candidates.front() && chosen.names.size() == candidates.size()) {
+    } else if (&candidate == &candidates.front() && fitted == candidates.size()) {
       // A ranking of nothing helps nobody.
       budget.expected_minutes = spent;
       budget.too_small_for = candidate.name;
@@ -243,6 +250,10 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
     }
   }
   chosen.budget = std::move(budget);
+
+  // One model alone has no mean.
+  const bool is_named = std::ranges::find(words.models, kMean) != words.models.end();
+  if (chosen.names.size() == 2 && !is_named) std::erase(chosen.names, kMean);
   return chosen;
 }
 

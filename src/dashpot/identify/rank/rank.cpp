@@ -25,6 +25,7 @@
 #include "dashpot/identify/rank/fit_identity.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/rank/information.h"
+#include "dashpot/identify/rank/mean_of_models.h"
 #include "dashpot/identify/rank/paired_ratio.h"
 #include "dashpot/identify/rank/rank_and_tell.h"
 #include "dashpot/record/inertia.h"
@@ -163,10 +164,17 @@ class RankingRun {
       RankedModel ranked;
       ranked.name = model;
       ranked.title = model_info(model).title;
+      if (model_info(model).kind == ModelKind::Mean) {
+        mean_ = std::move(ranked);
+        continue;
+      }
       ranked.fold_fits.resize(divisions_.is_one ? 0 : folds_.size());
       ranked.held_back_fits.resize(held_back_.size());
       ranking_.models.push_back(std::move(ranked));
     }
+    if (mean_ && ranking_.models.size() < 2)
+      throw Error(mean_->name, "is made of the other models of a ranking",
+                  "name two or more of them with it");
   }
 
   Ranking run() {
@@ -180,11 +188,10 @@ class RankingRun {
       if (--left[place_of(task)] > 0) return;
       RankedModel& ranked = ranking_.models[place_of(task)];
       judge(ranked);
-      if (!on_judged_) return;
-      const std::lock_guard lock(telling_);
-      on_judged_(ranked);
+      tell(ranked);
     });
     if (refused_ == tasks.size()) throw Error("", ranking_.models.front().fit.message);
+    if (mean_) add_mean();
 
     // Then sort. What a step costs is measured when nothing else runs.
     for (RankedModel& ranked : ranking_.models)
@@ -230,6 +237,27 @@ class RankingRun {
     FitReport* report;
     double cost;
   };
+
+  void tell(const RankedModel& ranked) {
+    if (!on_judged_) return;
+    const std::lock_guard lock(telling_);
+    on_judged_(ranked);
+  }
+
+  /// The mean of the best models, judged as each of them is: by those of their fits that have not
+  /// seen the records.
+  void add_mean() {
+    const std::vector<MeanShare> shares = shares_of_mean(ranking_.models);
+    if (shares.empty()) {
+      fail(*mean_, "all records", "fewer than two models may be members of it");
+    } else {
+      make_mean(ranking_.models, shares, *mean_);
+      judge(*mean_);
+      mean_->fit.training_rmse = mean_->training.pooled.rmse;
+      tell(*mean_);
+    }
+    ranking_.models.push_back(std::move(*mean_));
+  }
 
   std::size_t place_of(const Task& task) const {
     return static_cast<std::size_t>(task.model - ranking_.models.data());
@@ -420,6 +448,14 @@ class RankingRun {
                                   ": the model could not be judged");
   }
 
+  /// Its left-out ESR, %. A mean costs what its members do and tells less of the damper: it stands
+  /// before one that it leaves a tenth less than.
+  static double counted_error(const RankedModel& model) {
+    constexpr double kMeanMustLeave = 0.9;
+    const bool is_mean = model_info(model.name).kind == ModelKind::Mean;
+    return model.left_out.pooled.esr / (is_mean ? kMeanMustLeave : 1);
+  }
+
   static bool better(const RankedModel& a, const RankedModel& b) {
     const auto rank_of = [](const RankedModel& m) {
       const bool failed = m.fit.status == FitReport::Status::Failed;
@@ -427,7 +463,7 @@ class RankingRun {
                        : m.left_out.diverged > 0 ? 2
                        : !is_recommendable(m)    ? 1
                                                  : 0,
-                       failed ? 0.0 : m.left_out.pooled.esr);
+                       failed ? 0.0 : counted_error(m));
     };
     return rank_of(a) < rank_of(b);
   }
@@ -453,6 +489,7 @@ class RankingRun {
   Domain domain_;
   double force_span_;
   std::atomic<std::size_t> kept_ = 0, refused_ = 0;
+  std::optional<RankedModel> mean_;  ///< of the others, where it is asked for
   Ranking ranking_;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "dashpot/damper/registry.h"
 #include "dashpot/identify/judge/left_inertia.h"
 #include "dashpot/rank.h"
 #include "dashpot/record/inertia.h"
@@ -27,11 +28,12 @@ bool leaves_less(const Evaluation& after, const Evaluation& before) {
   return share * share < 1 - kLess && better >= kMost * static_cast<double>(after.records.size());
 }
 
-/// The best model of a ranking, where there is one that can be judged by.
+/// The best model of a ranking that was fitted by itself, where there is one to judge by.
 const RankedModel* best_of(const Ranking& ranking) {
-  return !ranking.models.empty() && is_recommendable(ranking.models.front())
-             ? &ranking.models.front()
-             : nullptr;
+  for (const RankedModel& model : ranking.models)
+    if (model_info(model.name).kind != ModelKind::Mean)
+      return is_recommendable(model) ? &model : nullptr;
+  return nullptr;
 }
 
 }  // namespace
