@@ -147,6 +147,57 @@ TEST_CASE("warnings say what a design should not do") {
   CHECK(contains(physics_warnings(damper, p).front(), "turns is 150.5, which no coil has"));
 }
 
+TEST_CASE(
+    "a Herschel-Bulkley fluid's pressures are its own; behind a moving wall it is Bingham's") {
+  const std::string bingham =
+      "name: mine\ndensity: 3000\nviscosity: 0.1\n"
+      "laws: {measured: {field: {volume_fraction: 0.3}, yield_stress: {points: [[0, 0], "
+      "[2e+5, 4e+4]]}}}\n";
+  DamperDescription damper = named_description("passenger_car"), other = damper;
+  const auto fluid_of = [](const std::string& text) {
+    return std::make_shared<const Fluid>(read_fluid(parse_yaml(text, "fluid.yaml")));
+  };
+  damper.yield_law = other.yield_law = "";
+  damper.fluid = fluid_of(bingham);
+  other.fluid = fluid_of(bingham + "herschel_bulkley: {index: 0.7, shear_rate: 100}\n");
+
+  // Without yield stress nothing but the power law is left of it, by hand.
+  const DamperOperation off{.velocity = 0.3}, on{.current = 2, .velocity = 0.3};
+  const DamperPhysics p = evaluate_physics(other, off);
+  const double rate = 2 * (1 / 0.7 + 2) * p.flow / (p.gap_width * other.gap * other.gap);
+  const double wall = 0.1 * std::pow(100, 0.3) * std::pow(rate, 0.7);
+  CHECK_CLOSE(p.newtonian_pressure, 2 * wall * other.pole_length / other.gap, 1e-12, 0);
+  CHECK_CLOSE(p.passive_pressure, 2 * wall * other.passive_length / other.gap, 1e-12, 0);
+  CHECK_CLOSE(p.pressure, p.newtonian_pressure, 1e-12, 0);
+
+  // The other flow laws know its viscosity alone.
+  const DamperPhysics first = evaluate_physics(damper, on), second = evaluate_physics(other, on);
+  CHECK(second.plate_force < 0.95 * first.plate_force);
+  CHECK(second.moving_wall_force == first.moving_wall_force);
+  CHECK(second.yield_factor == first.yield_factor);
+}
+
+TEST_CASE("what the flow leaves out is told: a damper at rest, a yield stress without field") {
+  DamperDescription damper = named_description("passenger_car");
+  const auto warnings = [&](const DamperOperation& at) {
+    return join(physics_warnings(damper, evaluate_physics(damper, at)), "\n");
+  };
+  const DamperOperation moving{.current = 1, .velocity = 0.1};
+  CHECK(!contains(warnings(moving), "at rest"));
+  CHECK(!contains(warnings(moving), "without field"));
+
+  // Carlson's 9.574 kPa over poles of 24 mm, and 50 N of friction; 2 tau L A_p / h.
+  CHECK(contains(warnings({.current = 1}), "not the 696.8 N up to which the damper holds"));
+
+  // 200 Pa over the 16 mm that have no field.
+  damper.yield_law = "";
+  damper.fluid = std::make_shared<const Fluid>(read_fluid(parse_yaml(
+      "name: mine\ndensity: 3000\nviscosity: 0.1\nlaws: {measured: {field: {volume_fraction: 0.3}, "
+      "yield_stress: {points: [[0, 200], [2e+5, 4e+4]]}}}\n",
+      "fluid.yaml")));
+  CHECK(contains(warnings(moving), "the 200 Pa that mine has there would add 9.01 to 13.5 N"));
+}
+
 TEST_CASE("a fluid and a steel of one's own stand in a written description and read back") {
   const TemporaryFolder folder;
   folder.write("mine.yaml",

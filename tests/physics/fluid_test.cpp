@@ -51,10 +51,11 @@ TEST_CASE("the family paper's table 1 gives TC-5.4b, holds its maximum, and says
     CHECK_CLOSE(find_fluid("140CG")->law("paper")->yield_stress(field, 1), 59456.1, 1e-6, 0);
 
   const auto warnings = [](const std::string& fluid, double field) {
-    DamperDescription damper =
-        parse_description("fluid: " + fluid + "\nyield: paper\ncircuit: paper\n", "test.yaml");
+    DamperDescription damper = parse_description(
+        "fluid: " + fluid + "\nyield: paper\ncircuit: paper\npassive_length: 0\n", "test.yaml");
     DamperPhysics physics;
     physics.field = field;
+    physics.flow = 1;
     return physics_warnings(damper, physics);
   };
   CHECK(warnings("140CG", 200e3).size() == 1);

@@ -53,13 +53,13 @@ constexpr std::array kQuantities{
                     "A_rm = A_p + A_g / 2"},
     PhysicsQuantity{&P::flow, "hydraulics", "flow", "m^3/s", "Q = A_p |v|"},
     PhysicsQuantity{&P::newtonian_pressure, "hydraulics", "pressure without yield stress", "Pa",
-                    "12 eta L Q / (w h^3)"},
+                    "Bingham: 12 eta L Q / (w h^3)"},
     PhysicsQuantity{&P::yield_pressure, "hydraulics", "pressure below which nothing flows", "Pa",
                     "2 T_y L / h"},
     PhysicsQuantity{&P::passive_pressure, "hydraulics", "pressure of the gap without field", "Pa",
-                    "12 eta L_0 Q / (w h^3)"},
-    PhysicsQuantity{&P::pressure, "hydraulics", "pressure of the Bingham fluid, fixed walls", "Pa",
-                    "P^3 - (1 + 3T) P^2 + 4 T^3 = 0"},
+                    "Bingham: 12 eta L_0 Q / (w h^3)"},
+    PhysicsQuantity{&P::pressure, "hydraulics", "pressure of the gap with field, fixed walls", "Pa",
+                    "Bingham: P^3 - (1 + 3T) P^2 + 4 T^3 = 0"},
     PhysicsQuantity{&P::viscous_force, "force", "viscous force of the family paper, eq. 13 x L A_p",
                     "N", "12 eta L A_p A_rm v / (A_g h^2)"},
     PhysicsQuantity{&P::yield_factor, "force", "its factor c", "1", "2.07 + 1 / (1 + 0.4 T)"},
@@ -183,40 +183,50 @@ void add_fluid(const DamperDescription& d, const FluidState& state, DamperPhysic
   p.viscosity = at_40 * std::exp(-d.viscosity_exponent * (d.temperature - 313.15));
 }
 
+/// Pressures between walls that stand: a Bingham fluid's, or a Herschel-Bulkley fluid's, whose
+/// power law goes through the viscosity at a shear rate.
+void add_pressures(const DamperDescription& d, const PlateGap& active, const PlateGap& passive,
+                   DamperPhysics& p) {
+  p.newtonian_pressure = plate_newtonian_pressure(&active, p.viscosity, p.flow);
+  p.passive_pressure = plate_newtonian_pressure(&passive, p.viscosity, p.flow);
+  if (p.flow == 0) return;
+  p.pressure = plate_bingham_pressure(p.newtonian_pressure, p.yield_pressure);
+  if (const double n = d.fluid->index; n != 1) {
+    const double consistency = p.viscosity * std::pow(d.fluid->shear_rate, 1 - n);
+    p.newtonian_pressure = plate_power_law_pressure(&active, consistency, n, p.flow);
+    p.passive_pressure = plate_power_law_pressure(&passive, consistency, n, p.flow);
+    p.pressure = plate_herschel_bulkley_pressure(p.newtonian_pressure, p.yield_pressure, n);
+  }
+}
+
 /// Pressures and forces of all three flow laws at a speed, whichever the description chooses.
 void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
   const double speed = std::abs(velocity);
   const PlateGap active{d.pole_length, p.gap_width, d.gap},
       passive{d.passive_length, p.gap_width, d.gap};
   p.flow = p.piston_area * speed;
-  p.newtonian_pressure = plate_newtonian_pressure(&active, p.viscosity, p.flow);
-  p.passive_pressure = plate_newtonian_pressure(&passive, p.viscosity, p.flow);
   p.yield_pressure = plate_yield_pressure(&active, p.yield_stress);
+  add_pressures(d, active, passive, p);
   if (speed == 0) return;
-  p.pressure = plate_bingham_pressure(p.newtonian_pressure, p.yield_pressure);
-  if (const double n = d.fluid->index; n != 1) {
-    // The viscosity is that at a shear rate, over which the power law goes.
-    const double consistency = p.viscosity * std::pow(d.fluid->shear_rate, 1 - n);
-    const double power = plate_power_law_pressure(&active, consistency, n, p.flow);
-    p.pressure = plate_herschel_bulkley_pressure(power, p.yield_pressure, n);
-    p.passive_pressure = plate_power_law_pressure(&passive, consistency, n, p.flow);
-  }
   p.plate_force = p.piston_area * (p.pressure + p.passive_pressure);
 
-  // The wall moves against the flow, in the part with field and in the part without.
+  // The wall moves against the flow, in the part with field and in the part without. Of any fluid
+  // this is the flow of Bingham's with its viscosity.
+  const double newtonian = plate_newtonian_pressure(&active, p.viscosity, p.flow),
+               passive_newtonian = plate_newtonian_pressure(&passive, p.viscosity, p.flow);
   const double wall = p.gap_area * speed / p.flow;  // w h v / Q
-  const double moving = plate_moving_wall_pressure(p.newtonian_pressure, p.yield_pressure, wall);
-  const double drag = plate_wall_drag(moving, p.newtonian_pressure, p.yield_pressure, wall);
-  const double passive_moving = (1 + 0.5 * wall) * p.passive_pressure;
+  const double moving = plate_moving_wall_pressure(newtonian, p.yield_pressure, wall);
+  const double drag = plate_wall_drag(moving, newtonian, p.yield_pressure, wall);
+  const double passive_moving = (1 + 0.5 * wall) * passive_newtonian;
   p.moving_wall_force =
       p.piston_area * (moving + drag + passive_moving +
-                       plate_wall_drag(passive_moving, p.passive_pressure, 0, wall));
+                       plate_wall_drag(passive_moving, passive_newtonian, 0, wall));
 
   // Equations 13 to 15 of the family paper.
   const double length = d.pole_length + d.passive_length;
   p.viscous_force = 12 * p.viscosity * length * p.piston_area * p.moving_area * speed /
                     (p.gap_area * d.gap * d.gap);
-  const double ratio = p.yield_pressure / (2 * p.newtonian_pressure);  // T
+  const double ratio = p.yield_pressure / (2 * newtonian);  // T
   p.yield_factor = 2.07 + 1 / (1 + 0.4 * ratio);
   p.yield_force = p.yield_factor * p.yield_stress * p.piston_area * d.pole_length / d.gap;
 }
@@ -342,7 +352,23 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
     warnings.push_back("the wire carries " + format_number(p.current_density / 1e6, 3) +
                        " A/mm^2; more than 10 overheats it when it lasts");
 
-  // Approximations of the flow.
+  // What the figures of the flow leave out.
+  if (p.flow == 0)
+    warnings.push_back(
+        "at rest nothing flows: the forces are those of a spring, if there is one, and not the " +
+        format_number(p.piston_area * p.yield_pressure + d.friction) +
+        " N up to which the damper holds");
+  if (const double still = d.law().yield_stress(0, d.carrier);
+      still > 0 && d.passive_length > 0 && !(d.yield_stress > 0)) {
+    // In slow flow it adds this pressure, in fast flow 1 + n / (n + 1) times as much.
+    const PlateGap passive{d.passive_length, p.gap_width, d.gap};
+    const double slow = p.piston_area * plate_yield_pressure(&passive, still),
+                 fast = slow * (1 + d.fluid->index / (d.fluid->index + 1));
+    warnings.push_back("the gap without field is taken for one without yield stress: the " +
+                       format_number(still) + " Pa that " + d.fluid->name +
+                       " has there would add " + format_number(slow, 3) + " to " +
+                       format_number(fast, 3) + " N, with current and without");
+  }
   const double diameter = slot_mean_diameter(d);
   if (d.gap > 0.05 * diameter)
     warnings.push_back(

@@ -38,6 +38,7 @@ struct DamperOperation {
   double current = 0;       ///< A
   double velocity = 0;      ///< m/s, extension positive
   double displacement = 0;  ///< m, from where the spring is free
+  bool operator==(const DamperOperation&) const = default;
 };
 
 /// Evaluates the chain coil, magnetic circuit, fluid, flow, force. The description must be possible
