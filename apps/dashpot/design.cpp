@@ -218,8 +218,10 @@ int run_design(DesignSettings settings, Console& console) {
   // An interrupted search writes its designs first and then ends as interrupted.
   if (report.stopped) console.check_stop();
   if (!report.designs.empty()) return kDone;
-  console.error(report.conflict ? "the constraints conflict; the lines above say which"
-                                : "no design was found");
+  console.error(!report.conflict                   ? "no design was found"
+                : report.conflict->members.empty() ? "there is no design; the lines above say why"
+                                                   : "the constraints conflict; the lines above "
+                                                     "say which");
   return kNotUsable;
 }
 

@@ -53,8 +53,7 @@ goals: [{maximise: dynamic_range}, {minimise: time constant}]
 TEST_CASE("design request: turns are whole where nothing else is said") {
   const auto turns = [](const std::string& damper, const std::string& range) {
     return parse_request(
-               "damper: " + damper + "\nvary: {turns: " + range +
-                   "}\nconstraints: [{quantity: force, min: 1}]\ngoals: [{minimise: mass}]\n",
+               "damper: " + damper + "\nvary: {turns: " + range + "}\ngoals: [{minimise: mass}]\n",
                "request.yaml")
         .variables[0];
   };
@@ -91,9 +90,33 @@ TEST_CASE("design request: what is wrong is named") {
   says(request("gap: {from: 1 mm, to: 2 mm}",
                "goals: [{minimise: mass}]\nfollow: {gap: {pole_length: 1}}"),
        "both varies and follows");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{maximise: force}]"),
+       "force is asked at rest, where nothing flows; a velocity, as at: {");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "at: {current: 1 A}\ngoals: [{minimise: mass}]\n"
+               "constraints: [{quantity: off_force, max: 1 kN}]"),
+       "off_force is asked at rest");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "at: {velocity: 0.1 m/s}\ngoals: [{maximise: dynamic_range}]"),
+       "dynamic_range is asked without a current");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}, {maximise: mass}]"),
+       "the goals smallest mass and largest mass are of one figure");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "at: {current: 1 A, velocity: 0.1 m/s}\n"
+               "goals: [{minimise: mass}, {maximise: force}, {maximise: force}]"),
+       "are of one figure; one goal for each figure");
   says(request("fluid: [132DH]"), "unknown fluid");
   says("vary: {gap: [1 mm]}\ngoals: [{minimise: mass}]", "damper");
   says("damper: car\nvary: {gap: [1 mm]}", "unknown damper 'car'");
+}
+
+TEST_CASE("design request: a figure at two places, or by two models, is two goals") {
+  const DesignRequest parsed = parse_request(
+      request("gap: {from: 1 mm, to: 2 mm}",
+              "at: {current: 1 A, velocity: 0.1 m/s}\ngoals: [{maximise: force}, {maximise: force, "
+              "current: 2 A}, {maximise: force, by: second}]"),
+      "request.yaml");
+  CHECK(parsed.goals.size() == 3);
 }
 
 TEST_CASE("design request: those that come with Dashpot are understood") {

@@ -186,6 +186,14 @@ TEST_CASE("design: ranges of which no damper can be drawn are told from constrai
       "mass}]\n");
   REQUIRE(report.conflict);
   CHECK(report.conflict->undrawable);
+
+  // A gap of 1 mm can be drawn, and with +-3 mm not be made.
+  const DesignReport made = designed(
+      "damper: passenger_car\nvary: {gap: {from: 0.9 mm, to: 1.1 mm}}\ngoals: [{minimise: mass}]\n"
+      "tolerances: {gap: 3 mm}\nrobust: {share: 0.9, samples: 20}\n");
+  REQUIRE(made.conflict);
+  CHECK(describe(*made.conflict, made.request)
+            .starts_with("no damper of these ranges can be made within its tolerances"));
 }
 
 TEST_CASE("design: the share of dampers made moves the optimum inside by the tolerance") {

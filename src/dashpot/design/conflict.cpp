@@ -104,7 +104,9 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
 
 std::string describe(const Conflict& conflict, const DesignRequest& request) {
   if (conflict.undrawable)
-    return "no damper of these ranges can be drawn: the parts do not fit into each other";
+    return std::string("no damper of these ranges can be ") +
+           (request.share > 0 ? "made within its tolerances" : "drawn") +
+           ": the parts do not fit into each other";
   if (conflict.refused)
     return "none of the dampers of these ranges that were tried has a force that its models do not "
            "refuse, and goals that have a figure";

@@ -99,6 +99,20 @@ std::vector<ToldBy> read_by(ObjectReader& reader, bool both_allowed) {
               both_allowed ? "first, second or both" : "first or second");
 }
 
+/// Throws Error where the quantity would be the same number for every damper: forces at rest, a
+/// range of forces without a current.
+void require_telling(const DesignQuantity& quantity, const DamperOperation& at,
+                     const Value& asked) {
+  const std::string example = "at: {current: 2 A, velocity: 0.3 m/s}";
+  const std::string name(quantity.name);
+  if (at.velocity == 0 && quantity.needs_flow())
+    throw Error(asked.where(), name + " is asked at rest, where nothing flows",
+                "a velocity, as " + example);
+  if (at.current == 0 && quantity.needs_current())
+    throw Error(asked.where(), name + " is asked without a current, where there is none to tell",
+                "a current, as " + example);
+}
+
 void read_constraint(const Value& value, const DamperOperation& at, DesignRequest& request) {
   // The quantity, where it is asked, its bounds, and the models that are asked.
   ObjectReader reader(value, "a constraint");
@@ -125,6 +139,7 @@ void read_constraint(const Value& value, const DamperOperation& at, DesignReques
   const std::size_t count = request.constraints.size();
   if (least && most && request.constraints[count - 2].bound > request.constraints[count - 1].bound)
     throw Error(value.where(), std::string(constraint.quantity->name) + " has a min above its max");
+  require_telling(*constraint.quantity, constraint.at, named);
 }
 
 DesignGoal read_goal(const Value& value, const DamperOperation& at) {
@@ -144,6 +159,7 @@ DesignGoal read_goal(const Value& value, const DamperOperation& at) {
   const Value& named = most ? *most : *least;
   goal.quantity = &find_design_quantity(named.as_string(), named.where());
   goal.maximise = most != nullptr;
+  require_telling(*goal.quantity, goal.at, named);
   return goal;
 }
 
@@ -191,6 +207,22 @@ DamperDescription read_damper(const Value& value, const std::filesystem::path& f
   return load_description(folder / name);
 }
 
+/// Whether both are of the same figure, whichever way they want it.
+bool are_of_one_figure(const DesignGoal& a, const DesignGoal& b) {
+  return a.quantity == b.quantity && a.by == b.by && (a.quantity->of_drawing || a.at == b.at);
+}
+
+/// A goal that is asked twice adds nothing; asked both ways, every damper would be a design.
+void require_one_goal_each(const std::vector<DesignGoal>& goals, const std::string& source) {
+  for (std::size_t k = 1; k < goals.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other)
+      if (are_of_one_figure(goals[k], goals[other]))
+        throw Error(source,
+                    "the goals " + describe(goals[other]) + " and " + describe(goals[k]) +
+                        " are of one figure",
+                    "one goal for each figure");
+}
+
 bool varies(const DesignRequest& request, const DescriptionField* field) {
   return std::ranges::any_of(request.variables,
                              [&](const DesignVariable& v) { return v.field == field; });
@@ -201,6 +233,7 @@ void require_consistent(const DesignRequest& request, const std::string& source,
     throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
   if (goals == Goals::Required && request.goals.empty())
     throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
+  require_one_goal_each(request.goals, source);
   if (asks_comfort(request) && !request.ride)
     throw Error(source, "comfort is asked, and of no ride",
                 "ride: {plant: savaresi_spelta, controller: skyhook}");

@@ -222,6 +222,20 @@ bool DesignQuantity::is_of_force() const {
 
 bool DesignQuantity::has_band() const { return is_of_force() && estimate != response_time; }
 
+bool DesignQuantity::needs_flow() const {
+  constexpr std::array kOfFlow{
+      &P::flow,        &P::pressure,          &P::newtonian_pressure, &P::passive_pressure,
+      &P::plate_force, &P::moving_wall_force, &P::viscous_force,      &P::yield_force,
+      &P::yield_factor};
+  return is_of_force() || estimate == control_ratio || estimate == controllable_power ||
+         std::ranges::find(kOfFlow, physics) != kOfFlow.end();
+}
+
+bool DesignQuantity::needs_current() const {
+  return physics == &P::dynamic_range || estimate == controllable_force ||
+         estimate == response_time;
+}
+
 std::span<const DesignQuantity> design_quantities() {
   static const std::vector<Q> all = all_quantities();
   return all;

@@ -32,6 +32,11 @@ struct DesignQuantity {
   bool is_of_force() const;
   /// Whether a band of the forces makes one of it: of those figures all but times.
   bool has_band() const;
+  /// Whether it says nothing at rest, where nothing flows.
+  bool needs_flow() const;
+  /// Whether it tells the force with a current from that without, and says nothing where there is
+  /// none.
+  bool needs_current() const;
 };
 
 /// Every quantity, each name once: figures of the physics, estimates, then fields.
