@@ -69,6 +69,19 @@ std::string chosen_word(const std::string& word, const Option& option) {
                    suggest(word, option.choices, option.more_choices));
 }
 
+/// Throws UsageError where a list gives one name two values, of which one would count for nothing.
+void require_one_value_each(const std::vector<std::string>& words, const Option& option) {
+  std::vector<std::string> names;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string name = word.substr(0, equals);
+    if (std::ranges::find(names, name) != names.end())
+      throw UsageError(option.long_name(), name + " is stated twice", "one value of each name");
+    names.push_back(name);
+  }
+}
+
 /// Writes the words given for one option to its variable.
 struct StoreWords {
   const Option& option;
@@ -90,6 +103,7 @@ struct StoreWords {
       for (const std::string& part : parts)
         target->push_back(chosen_word(std::string(trim(part)), option));
     }
+    if (!option.is_positional()) require_one_value_each(*target, option);
   }
 };
 

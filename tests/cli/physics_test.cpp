@@ -26,6 +26,9 @@ TEST_CASE("physics: fields can be changed, listed, and are refused with their na
   CHECK(contains(run_dashpot("physics passenger_car --set gpa=2mm").output, "did you mean 'gap'"));
   CHECK(contains(run_dashpot("physics passenger_car --set gap=2kg").output, "not a unit of it"));
   CHECK(contains(run_dashpot("physics passenger_car --current much").output, "is not a number"));
+  const ProgramResult twice = run_dashpot("physics passenger_car --set gap=2mm,turns=90,gap=1mm");
+  CHECK(twice.exit_code == 2);
+  CHECK(contains(twice.output, "--set: gap is stated twice; one value of each name"));
   CHECK(run_dashpot("physics no_such.yaml").exit_code == 1);
   CHECK(run_dashpot("physics").exit_code == 2);
 }
