@@ -313,6 +313,8 @@ class Vehicles(unittest.TestCase):
             trace["wing"]
         with self.assertRaisesRegex(dashpot.Error, "gravel"):
             dashpot.simulate(road="gravel")
+        with self.assertRaisesRegex(dashpot.Error, "duration: is nan; finite numbers"):
+            dashpot.simulate(duration=float("nan"))
 
 
 class Stubs(InFolder):

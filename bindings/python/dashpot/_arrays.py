@@ -4,6 +4,8 @@ import json
 
 import numpy as np
 
+from . import _core
+
 
 def _plain(samples):
     """pandas' columns that may lack numbers (Int64, Float64) as float64; what lacks is NaN."""
@@ -24,11 +26,22 @@ def as_float64(values, name: str = "the array") -> np.ndarray:
 
 
 def as_json(options) -> str:
-    """Options as the C boundary takes them; NumPy's numbers and arrays are numbers and lists."""
+    """Options as the C boundary takes them; NumPy's numbers and arrays are numbers and lists.
+
+    Raises Error at a number that is not finite, for which JSON has no word.
+    """
 
     def plain(value):
         if isinstance(value, (np.generic, np.ndarray)):
             return value.tolist()
         raise TypeError(f"{value!r} is no option: a number, a text or a list of these")
 
-    return json.dumps(options, default=plain)
+    def text(value) -> str:
+        return json.dumps(value, default=plain, allow_nan=False)
+
+    for name, value in options.items():
+        try:
+            text(value)
+        except ValueError:
+            raise _core.Error(f"{name}: is {value}; finite numbers") from None
+    return text(options)
