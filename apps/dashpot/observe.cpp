@@ -160,8 +160,8 @@ DocumentTable quantity_table(const ObserveReport& report, double level) {
   for (const ObservedRecording& one : report.recordings)
     for (const ObservedQuantity& q : one.quantities) {
       const auto [low, high] = std::ranges::minmax(q.value);
-      table.rows.push_back({one.name, q.name, unit_name(q.unit), quantity(low, q.unit),
-                            quantity(high, q.unit), quantity(mean_of(q.half), q.unit)});
+      table.rows.push_back({one.name, q.name, unit_name(q.unit), plain_quantity(low, q.unit),
+                            plain_quantity(high, q.unit), plain_quantity(mean_of(q.half), q.unit)});
     }
   table.note = fmt::format("Each band is to hold {} % of the time.", format_number(level, 3));
   return table;

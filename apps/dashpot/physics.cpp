@@ -121,6 +121,13 @@ std::string uncertainty_text(const std::vector<KnownWithin>& known) {
                             format_number(std::sqrt(square), 3));
 }
 
+/// At rest the damper holds, whatever pulls, and no figure above says so.
+std::string rest_warning(const DamperDescription& description, const DamperPhysics& physics) {
+  return "at rest nothing flows: the forces are those of a spring, if there is one, and not the " +
+         format_number(physics.piston_area * physics.yield_pressure + description.friction) +
+         " N up to which the damper holds";
+}
+
 Value quantities_json(const DamperPhysics& physics) {
   Value list = Value::array();
   for (const PhysicsQuantity& quantity : physics_quantities()) {
@@ -231,7 +238,8 @@ int run_physics(const PhysicsSettings& settings, Console& console) {
                                   parse_quantity(settings.velocity, "m/s", "--velocity"),
                                   parse_quantity(settings.displacement, "m", "--displacement")};
   const DamperPhysics physics = evaluate_physics(description, operation);
-  const std::vector<std::string> warnings = physics_warnings(description, physics);
+  std::vector<std::string> warnings = physics_warnings(description, physics);
+  if (operation.velocity == 0) warnings.push_back(rest_warning(description, physics));
   const std::vector<KnownWithin> known = force_uncertainty(description, operation);
 
   // Warnings are part of the JSON; on a terminal they follow the table.

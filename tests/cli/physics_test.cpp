@@ -16,6 +16,11 @@ TEST_CASE("physics: every step with its unit, as text and as JSON") {
       "json");
   CHECK(json.find("quantities")->items().size() == physics_quantities().size());
   CHECK(json.find("velocity")->as_number() == 0.034);
+
+  // At rest: Carlson's 9.574 kPa over poles of 24 mm in a gap of 1 mm, and 50 N of friction.
+  CHECK(contains(run_dashpot("physics passenger_car --velocity 0").output,
+                 "and not the 696.8 N up to which the damper holds"));
+  CHECK(!contains(result.output, "at rest nothing flows"));
 }
 
 TEST_CASE("physics: fields can be changed, listed, and are refused with their names" *

@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "dashpot/base/text.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -194,6 +195,26 @@ TEST_CASE("design: ranges of which no damper can be drawn are told from constrai
   REQUIRE(made.conflict);
   CHECK(describe(*made.conflict, made.request)
             .starts_with("no damper of these ranges can be made within its tolerances"));
+}
+
+TEST_CASE("design: what physics warns of in a design is told") {
+  const std::string request =
+      "damper: passenger_car\nat: {current: 2 A, velocity: 0.3 m/s}\n"
+      "vary: {wire_diameter: {from: 0.2 mm, to: 1 mm}}\ngoals: [{minimise: copper_mass}]\n";
+  const auto notes = [](const std::string& text) { return join(designed(text).notes, "\n"); };
+
+  // 2 A in 0.2 mm; 10 A/mm^2 is what a wire bears.
+  CHECK(contains(notes(request), "design_001: the wire carries 63.7 A/mm^2"));
+  CHECK(!contains(notes(request + "constraints: [{quantity: current_density, max: 9.9 A/mm^2}]\n"),
+                  "the wire carries"));
+
+  // Of a front those that stand out, under one warning.
+  const std::string front = notes(
+      "damper: passenger_car\nat: {current: 1 A, velocity: 0.3 m/s}\n"
+      "vary: {gap: {from: 0.6 mm, to: 2 mm}, fluid: [122EG]}\n"
+      "goals: [{maximise: force}, {minimise: off_force}]\n");
+  CHECK(contains(front, ": the volume fraction of 122EG is recalled, not from its data sheet"));
+  CHECK(contains(front, "design_001, "));
 }
 
 TEST_CASE("design: the share of dampers made moves the optimum inside by the tolerance") {

@@ -55,7 +55,6 @@ TEST_CASE("the family paper's table 1 gives TC-5.4b, holds its maximum, and says
         "fluid: " + fluid + "\nyield: paper\ncircuit: paper\npassive_length: 0\n", "test.yaml");
     DamperPhysics physics;
     physics.field = field;
-    physics.flow = 1;
     return physics_warnings(damper, physics);
   };
   CHECK(warnings("140CG", 200e3).size() == 1);

@@ -52,6 +52,9 @@ class DesignRun {
   void compare(Design& design) const;
   void name_roles();
   void add_sensitivities();
+  /// Notes what `dashpot physics` would warn of in the designs that stand out, at the largest
+  /// current and speed that are asked about.
+  void note_warnings();
 
   std::unique_ptr<DesignModel> model_, second_;
   DesignReport report_;
@@ -354,6 +357,33 @@ void DesignRun::add_sensitivities() {
                       {.seed = report_.options.seed, .threads = report_.options.threads});
 }
 
+void DesignRun::note_warnings() {
+  // Where the designs are looked at.
+  DamperOperation at;
+  const auto widen = [&at](const auto& asked) {
+    for (const auto& one : asked) {
+      at.current = std::max(at.current, std::abs(one.at.current));
+      at.velocity = std::max(at.velocity, std::abs(one.at.velocity));
+    }
+  };
+  widen(report_.request.goals);
+  widen(report_.request.constraints);
+
+  // Each warning once, with the names of the designs that it is of.
+  std::vector<std::pair<std::string, std::vector<std::string>>> warnings;
+  for (const Design& design : report_.designs) {
+    if (design.role.empty()) continue;
+    const DamperPhysics physics = evaluate_physics(design.damper, at);
+    for (const std::string& warning : physics_warnings(design.damper, physics)) {
+      auto own = std::ranges::find(warnings, warning, [](const auto& pair) { return pair.first; });
+      if (own == warnings.end()) own = warnings.insert(own, {warning, {}});
+      own->second.push_back(design.name);
+    }
+  }
+  for (const auto& [warning, names] : warnings)
+    report_.notes.push_back(join(names, ", ") + ": " + warning);
+}
+
 DesignReport DesignRun::run() {
   const auto start = std::chrono::steady_clock::now();
 
@@ -371,6 +401,7 @@ DesignReport DesignRun::run() {
   add_designs(places);
   name_roles();
   add_sensitivities();
+  note_warnings();
 
   for (const DesignModel* model : {model_.get(), second_.get()})
     if (model && model->has_refused())

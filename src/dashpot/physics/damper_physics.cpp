@@ -352,12 +352,7 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
     warnings.push_back("the wire carries " + format_number(p.current_density / 1e6, 3) +
                        " A/mm^2; more than 10 overheats it when it lasts");
 
-  // What the figures of the flow leave out.
-  if (p.flow == 0)
-    warnings.push_back(
-        "at rest nothing flows: the forces are those of a spring, if there is one, and not the " +
-        format_number(p.piston_area * p.yield_pressure + d.friction) +
-        " N up to which the damper holds");
+  // What the figures of the flow leave out, and how far plates stand for an annulus.
   if (const double still = d.law().yield_stress(0, d.carrier);
       still > 0 && d.passive_length > 0 && !(d.yield_stress > 0)) {
     // In slow flow it adds this pressure, in fast flow 1 + n / (n + 1) times as much.
