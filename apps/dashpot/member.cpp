@@ -14,7 +14,7 @@
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/model_file.h"
-#include "dashpot/physics/damper_description.h"
+#include "dashpot/physics/damper_physics.h"
 #include "document_text.h"
 #include "layout.h"
 #include "member_in_plant.h"
@@ -94,6 +94,20 @@ DamperDescription description_of(const std::string& damper, const Conditions& ch
   return description;
 }
 
+/// Says what a family's model does not take of a drawing, and what is to be known of its fluid.
+void tell_drawing(const DamperDescription& description, double largest_current, Console& console) {
+  if (description.friction > 0 || description.passive_length > 0)
+    console.note(
+        "friction and passive_length of the drawing do not count: a family's model has learnt "
+        "its own from its recordings");
+  if (description.fluid->index != 1)
+    console.note(description.fluid->name +
+                 " is a Herschel-Bulkley fluid: a family's model takes it by its viscosity at its "
+                 "shear rate");
+  const double field = fluid_state(description, largest_current).field;
+  for (const std::string& warning : fluid_warnings(description, field)) console.warn(warning);
+}
+
 /// The member that is asked for: of the drawing, or of the family's file, with the numbers of
 /// --set.
 FamilyMember member_asked_for(const MemberSettings& settings, const FamilyMember& of_file,
@@ -101,10 +115,7 @@ FamilyMember member_asked_for(const MemberSettings& settings, const FamilyMember
   const Conditions changes = changes_of(settings);
   if (!settings.damper.empty()) {
     const DamperDescription description = description_of(settings.damper, changes);
-    if (description.friction > 0 || description.passive_length > 0)
-      console.note(
-          "friction and passive_length of the drawing do not count: a family's model has learnt "
-          "its own from its recordings");
+    tell_drawing(description, largest_current, console);
     return with_conditions(member_of(description, largest_current), changes, "--set");
   }
 

@@ -46,6 +46,19 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
                  "states the gap_area of its own gap"));
   CHECK(contains(run_dashpot("member " + family + " --damper " + wide).output,
                  "friction and passive_length of the drawing do not count"));
+
+  // What the file of its fluid says, and what of it a family does not take.
+  const std::string recalled = folder.write("recalled.yaml", "fluid: 122EG\n").string();
+  CHECK(contains(run_dashpot("member " + family + " --damper " + recalled).output,
+                 "warning: the volume fraction of 122EG is recalled"));
+  folder.write("thinning.yaml",
+               "name: thinning\ndensity: 3000\nviscosity: 0.1\n"
+               "herschel_bulkley: {index: 0.7, shear_rate: 100}\n"
+               "laws: {mine: {volume_fraction: 0.3}}\n");
+  const std::string thinning = folder.write("drawn.yaml", "fluid: thinning.yaml\n").string();
+  CHECK(
+      contains(run_dashpot("member " + family + " --damper " + thinning).output,
+               "thinning is a Herschel-Bulkley fluid: a family's model takes it by its viscosity"));
   CHECK(contains(run_dashpot("member " + family + set).output,
                  "areas and yield stress do not follow gap"));
   CHECK(contains(run_dashpot("member " + family + " --set gap=1.2").output,

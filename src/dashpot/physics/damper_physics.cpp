@@ -314,8 +314,7 @@ std::vector<KnownWithin> force_uncertainty(const DamperDescription& d,
   return parts;
 }
 
-std::vector<std::string> physics_warnings(const DamperDescription& d, const DamperPhysics& p) {
-  // What the fluid's file says of its law, and where it ends.
+std::vector<std::string> fluid_warnings(const DamperDescription& d, double field) {
   const FluidLaw& law = d.law();
   std::vector<std::string> warnings = law.faults;
   const auto kilo = [](double value, const std::string& unit) {
@@ -324,7 +323,7 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
   const double end = law.has_yield_polynomial      ? law.polynomial.held_field
                      : !law.yield_stresses.empty() ? law.yield_stresses.back().first
                                                    : std::numeric_limits<double>::infinity();
-  if (p.field > end)
+  if (field > end)
     warnings.push_back("the yield stress of " + d.fluid->name + " is held at " +
                        kilo(law.yield_stress(end, d.carrier), "Pa") + " above " + kilo(end, "A/m") +
                        ", where its " +
@@ -332,6 +331,11 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
   if (!law.verified)
     warnings.push_back("the volume fraction of " + d.fluid->name +
                        " is recalled, not from its data sheet");
+  return warnings;
+}
+
+std::vector<std::string> physics_warnings(const DamperDescription& d, const DamperPhysics& p) {
+  std::vector<std::string> warnings = fluid_warnings(d, p.field);
   if (d.fluid->index != 1)
     warnings.push_back(d.fluid->name +
                        " is a Herschel-Bulkley fluid: the moving wall and the paper's equations "

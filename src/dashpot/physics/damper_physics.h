@@ -64,7 +64,11 @@ struct KnownWithin {
 std::vector<KnownWithin> force_uncertainty(const DamperDescription& description,
                                            const DamperOperation& operation);
 
-/// Warnings that a user should read with the numbers, one sentence each: laws outside their range,
+/// What the fluid's file says of its law, and whether it ends below this field, A/m; a sentence
+/// each.
+std::vector<std::string> fluid_warnings(const DamperDescription& description, double field);
+
+/// Warnings that a user should read with the numbers, one sentence each: those of the fluid,
 /// a coil that does not fit, saturation. Empty when there are none.
 std::vector<std::string> physics_warnings(const DamperDescription& description,
                                           const DamperPhysics& physics);
