@@ -99,6 +99,10 @@ TEST_CASE("design request: what is wrong is named") {
   says(request("gap: {from: 1 mm, to: 2 mm}",
                "at: {velocity: 0.1 m/s}\ngoals: [{maximise: dynamic_range}]"),
        "dynamic_range is asked without a current");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "at: {velocity: 0.1 m/s}\ngoals: [{minimise: mass}]\n"
+               "constraints: [{quantity: current_density, max: 10 A/mm^2}]"),
+       "current_density is asked without a current, where it is the same for every damper");
   says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}, {maximise: mass}]"),
        "the goals smallest mass and largest mass are of one figure");
   says(request("gap: {from: 1 mm, to: 2 mm}",

@@ -99,8 +99,8 @@ std::vector<ToldBy> read_by(ObjectReader& reader, bool both_allowed) {
               both_allowed ? "first, second or both" : "first or second");
 }
 
-/// Throws Error where the quantity would be the same number for every damper: forces at rest, a
-/// range of forces without a current.
+/// Throws Error where the quantity would be the same number for every damper: forces at rest, heat
+/// or a range of forces without a current.
 void require_telling(const DesignQuantity& quantity, const DamperOperation& at,
                      const Value& asked) {
   const std::string example = "at: {current: 2 A, velocity: 0.3 m/s}";
@@ -109,7 +109,8 @@ void require_telling(const DesignQuantity& quantity, const DamperOperation& at,
     throw Error(asked.where(), name + " is asked at rest, where nothing flows",
                 "a velocity, as " + example);
   if (at.current == 0 && quantity.needs_current())
-    throw Error(asked.where(), name + " is asked without a current, where there is none to tell",
+    throw Error(asked.where(),
+                name + " is asked without a current, where it is the same for every damper",
                 "a current, as " + example);
 }
 

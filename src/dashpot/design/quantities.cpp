@@ -232,8 +232,11 @@ bool DesignQuantity::needs_flow() const {
 }
 
 bool DesignQuantity::needs_current() const {
-  return physics == &P::dynamic_range || estimate == controllable_force ||
-         estimate == response_time;
+  constexpr std::array kOfCurrent{&P::dynamic_range,   &P::flux,         &P::core_flux_density,
+                                  &P::core_saturation, &P::flux_density, &P::field,
+                                  &P::voltage,         &P::power,        &P::current_density};
+  return estimate == controllable_force || estimate == response_time ||
+         std::ranges::find(kOfCurrent, physics) != kOfCurrent.end();
 }
 
 std::span<const DesignQuantity> design_quantities() {

@@ -34,8 +34,8 @@ struct DesignQuantity {
   bool has_band() const;
   /// Whether it says nothing at rest, where nothing flows.
   bool needs_flow() const;
-  /// Whether it tells the force with a current from that without, and says nothing where there is
-  /// none.
+  /// Whether it says nothing without a current: what one heats and magnetises, and what tells the
+  /// force with it from that without.
   bool needs_current() const;
 };
 
