@@ -235,6 +235,7 @@ async function driving(page) {
 async function designing(page) {
   await tab(page, "Design");
   await page.getByLabel("Least value of gap").fill("0.7 mm");
+  await page.getByLabel("Values of fluid").fill("122EG, 140CG");
   await page.getByLabel("Designs", {exact: true}).fill("12");
   await page.getByLabel("Generations").fill("4");
   await page.getByLabel("Name of its folder").fill("car");
@@ -255,7 +256,9 @@ async function designing(page) {
   }
   assert.notEqual(await title.textContent(), knee, "another design is picked");
   const name = /^design_\d+/.exec(await title.textContent())[0];
-  const design = JSON.parse(readFileSync(join(place, "design.json"), "utf8")).designs.find((d) => d.name === name);
+  const result = JSON.parse(readFileSync(join(place, "design.json"), "utf8")), design = result.designs.find((d) => d.name === name);
+  assert.match(result.notes.join(), /is recalled, not from its data sheet/);
+  for (const note of result.notes) assert.ok((await page.locator("section").first().textContent()).includes(note), "what is to be known of the designs is shown");
   assert.match(await page.locator("section").first().textContent(), new RegExp(String(+design.goals[1].toPrecision(4)).replace(".", "\\.")), "its mass is shown");
   await shoot(page, "8-design");
   await page.getByRole("button", {name: "Drive it"}).click();

@@ -63,6 +63,7 @@ function Front({one, result, theme, go}) {
   const model = `designs/${one.name}/models/${design.name}.json`;
   const axis_choice = (value, set, name) => html`<label class="field">${name}<select value=${value} onChange=${(event) => set(+event.target.value)}>${axes.map((axis, k) => html`<option value=${k}>${axis.label}</option>`)}</select></label>`;
   return html`<p class="note">${result.verdict}</p>
+    ${result.notes.map((note) => html`<p class="note" key=${note}>${note}</p>`)}
     <div class="row">${axis_choice(x, set_x, "Along")}${axis_choice(y, set_y, "Up")}</div>
     <${Scatter} title="The front: ${result.designs.length} designs" x_label=${label(ax)} y_label=${label(ay)} points=${points} chosen=${at} on_choose=${set_chosen} theme=${theme} keep=${`front-${one.name}`} height=${360} />
     <div class="row"><h3>${design.name}${design.role ? `: ${design.role}` : ""}</h3>
