@@ -197,6 +197,29 @@ TEST_CASE("design: ranges of which no damper can be drawn are told from constrai
             .starts_with("no damper of these ranges can be made within its tolerances"));
 }
 
+TEST_CASE("design: among several fluids the best is no worse than that of one of them") {
+  const auto reached = [](const std::string& fluids) {
+    const DesignReport report = designed(
+        "damper: passenger_car\nat: {current: 2 A, velocity: 0.3 m/s}\n"
+        "vary: {gap: {from: 0.7 mm, to: 2 mm}, pole_length: {from: 8 mm, to: 40 mm}, "
+        "turns: {from: 40, to: 300, step: 1}, core_area: {from: 200 mm^2, to: 700 mm^2}, "
+        "wire_diameter: [0.3 mm, 0.4 mm, 0.5 mm, 0.6 mm, 0.8 mm], fluid: " +
+        fluids +
+        "}\n"
+        "follow: {core_length: {constant: 22 mm, pole_length: 2}}\n"
+        "constraints: [{quantity: force, min: 1800 N}, {quantity: off_force, velocity: 1 m/s, max: "
+        "2000 N}, {quantity: core_saturation, max: 0.8}, {quantity: current_density, max: 10 "
+        "A/mm^2}, {quantity: coil_fill, max: 0.6}, {quantity: power, max: 20 W}, {quantity: "
+        "response_time, max: 60 ms}, {quantity: outer_diameter, max: 56 mm}]\n"
+        "goals: [{maximise: dynamic_range}]\n");
+    REQUIRE(report.designs.size() == 1);
+    return report.designs[0].assessment.goals[0];
+  };
+  const double alone = reached("[122EG]");
+  CHECK(reached("[122EG, 140CG]") > 0.999 * alone);
+  CHECK(reached("[122EG, 132DG, 140CG]") > 0.999 * alone);
+}
+
 TEST_CASE("design: what physics warns of in a design is told") {
   const std::string request =
       "damper: passenger_car\nat: {current: 2 A, velocity: 0.3 m/s}\n"

@@ -109,6 +109,10 @@ OptimiseOptions DesignRun::search_options(const std::string& stage, double from,
 
   OptimiseOptions options{
       .seed = report_.options.seed, .threads = report_.options.threads, .monitor = &staged_};
+  const bool takes_long = is_fitted() || report_.request.ride;
+  for (const DesignVariable& variable : report_.request.variables)
+    if (!takes_long && variable.fluids.size() > 1)
+      options.starts *= static_cast<int>(variable.fluids.size());  // as many in each fluid
   if (is_fitted()) {
     options.starts = 3;
     options.evaluations = 100;

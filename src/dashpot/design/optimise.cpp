@@ -242,15 +242,32 @@ bool step_level(const DesignProblem& problem, Search& search, std::size_t k) {
   return search.best_rank() < before - 1e-6 * std::abs(before);
 }
 
+/// Where a start looks: where there are enough of them, at one fluid. Fluids have their best
+/// dampers far apart, and a search among several ends in the one that is good in most places.
+SearchBox box_of_start(const DesignProblem& problem, std::size_t start, std::size_t starts) {
+  constexpr std::size_t kOfFluid = 2;  // starts, at least
+  constexpr double kInside = 0.49;     // of a level's places, either way from their middle
+  SearchBox box{std::vector<double>(problem.size(), 0.), std::vector<double>(problem.size(), 1.)};
+  for (std::size_t k = 0; k < problem.size(); ++k) {
+    const std::size_t fluids = problem.request().variables[k].fluids.size();
+    if (fluids < 2 || starts < kOfFluid * fluids) continue;
+    const double middle = problem.place_of_level(k, start % fluids);
+    box.lower[k] = middle - kInside / static_cast<double>(fluids);
+    box.upper[k] = middle + kInside / static_cast<double>(fluids);
+  }
+  return box;
+}
+
 void run_start(const DesignProblem& problem, Search& search, const OptimiseOptions& options,
-               std::uint64_t seed) {
+               std::size_t start) {
   constexpr int kRounds = 4;
 
-  // Controlled random search over the whole cube, then COBYLA from its best place.
+  // Controlled random search over the start's box, then COBYLA from its best place.
   const std::size_t size = problem.size();
-  const SearchBox box{std::vector<double>(size, 0.), std::vector<double>(size, 1.)};
-  global_search([&](std::span<const double> place) { return search.look_for_rank(place); }, box,
-                std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size), seed);
+  global_search([&](std::span<const double> place) { return search.look_for_rank(place); },
+                box_of_start(problem, start, static_cast<std::size_t>(options.starts)),
+                std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size),
+                options.seed + start);
   polish(problem, search, search.best().place, options.looks);
 
   // The levels of each variable in turn, until a round over all variables brings nothing; a few
@@ -276,7 +293,7 @@ Optimum run_starts(const DesignProblem& problem, const std::size_t* goal,
   std::vector<char> stopped(starts, 0);
   parallel_for(starts, options.threads, [&](std::size_t k) {
     try {
-      run_start(problem, searches[k], options, options.seed + k);
+      run_start(problem, searches[k], options, k);
     } catch (const Interrupted&) {
       stopped[k] = 1;
     } catch (const Enough&) {

@@ -29,9 +29,10 @@ struct Optimum {
   bool stopped = false;  ///< the user asked to stop: the best so far
 };
 
-/// Makes the goal best under the constraints. Each start: controlled random search in which a
-/// damper that holds the constraints beats any that does not; COBYLA, at first as if ranges had no
-/// steps; then the other levels of each variable in turn, with COBYLA on the rest. All by NLopt.
+/// Makes the goal best under the constraints. Each start: controlled random search, in one fluid
+/// where there are two starts or more for each, in which a damper that holds the constraints beats
+/// any that does not; COBYLA, at first as if ranges had no steps; then the other levels of each
+/// variable in turn, with COBYLA on the rest. All by NLopt.
 Optimum optimise(const DesignProblem& problem, std::size_t goal, const OptimiseOptions& options);
 
 /// Makes the goal better from a place, by COBYLA on the variables without levels; of the options
