@@ -448,14 +448,6 @@ class RankingRun {
                                   ": the model could not be judged");
   }
 
-  /// Its left-out ESR, %. A mean costs what its members do and tells less of the damper: it stands
-  /// before one that it leaves a tenth less than.
-  static double counted_error(const RankedModel& model) {
-    constexpr double kMeanMustLeave = 0.9;
-    const bool is_mean = model_info(model.name).kind == ModelKind::Mean;
-    return model.left_out.pooled.esr / (is_mean ? kMeanMustLeave : 1);
-  }
-
   static bool better(const RankedModel& a, const RankedModel& b) {
     const auto rank_of = [](const RankedModel& m) {
       const bool failed = m.fit.status == FitReport::Status::Failed;
@@ -463,7 +455,7 @@ class RankingRun {
                        : m.left_out.diverged > 0 ? 2
                        : !is_recommendable(m)    ? 1
                                                  : 0,
-                       failed ? 0.0 : counted_error(m));
+                       failed ? 0.0 : m.left_out.pooled.esr);
     };
     return rank_of(a) < rank_of(b);
   }

@@ -162,9 +162,8 @@ ModelInfo mean_info() {
       .remarks =
           "E: the squared error that each model leaves on records that its fit has not seen. "
           "Made by `rank` and `identify` of the models that they fit and may recommend, of as "
-          "many as leave the least; it stands first where that is a tenth less than any of them "
-          "leaves alone. Its force costs what theirs cost together. None of its members feeds "
-          "its force back.",
+          "many as leave the least. Its force costs what theirs cost together. None of its members "
+          "feeds its force back.",
       .inputs = {"velocity", "current"},
       .usual = false};
 }
