@@ -77,6 +77,14 @@ InPlantSetup true_setup(InPlantSetup setup, const PlantBenchSettings& settings) 
   for (PlantSensor& sensor : setup.sensors)
     if (sensor.finds_delay && sensor.delay == 0) sensor.delay = kUsualDelay;
   for (PlantSensor& sensor : setup.sensors) sensor.finds_delay = false;
+
+  // Nor is a cut-off far from those that loggers have.
+  constexpr double kUsualCutoff = 50;  // Hz
+  for (PlantSensor& sensor : setup.sensors)
+    if (sensor.finds_cutoff && sensor.filter.cutoff == 0)
+      sensor.filter.cutoff =
+          std::clamp(kUsualCutoff, sensor.finds_cutoff->lower, sensor.finds_cutoff->upper);
+  for (PlantSensor& sensor : setup.sensors) sensor.finds_cutoff.reset();
   for (PlantInputChannel& input : setup.inputs) input.finds_later = false;
   return setup;
 }

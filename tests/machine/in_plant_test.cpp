@@ -95,6 +95,24 @@ const PlantRecording& short_recording() {
   return kRecording;
 }
 
+/// The same with the displacement behind a filter of the second order, in steps of a fiftieth of a
+/// sample.
+PlantRecording behind_filter(double cutoff) {
+  constexpr int kFiner = 50;
+  const double w = 2 * std::numbers::pi * cutoff;
+  PlantRecording recording = short_recording();
+  const double step = recording.sample_time / kFiner;
+  const FinerSignal finer =
+      band_limited(recording.channels[1].samples, recording.sample_time, kFiner);
+  double out = finer.value.front(), rate = 0;
+  for (std::size_t k = 0; k < finer.value.size(); ++k) {
+    if (k % kFiner == 0) recording.channels[1].samples[k / kFiner] = out;
+    rate += step * w * (w * (finer.value[k] - out) - std::numbers::sqrt2 * rate);
+    out += step * rate;
+  }
+  return recording;
+}
+
 }  // namespace
 
 TEST_CASE("between samples: a sine at a fifth of the rate and its derivative; straight lines") {
@@ -222,26 +240,42 @@ TEST_CASE("in plant: what comes late is found out unasked, and the mass with it"
 
 TEST_CASE("in plant: a sensor behind a filter that the plant states" *
           doctest::test_suite("long")) {
-  // Of the second order at 30 Hz, in steps of a tenth of a sample.
-  constexpr int kFiner = 10;
-  constexpr double kCutoff = 2 * std::numbers::pi * 30;
-  PlantRecording recording = short_recording();
-  const double step = recording.sample_time / kFiner;
-  const FinerSignal finer =
-      band_limited(recording.channels[1].samples, recording.sample_time, kFiner);
-  double out = finer.value.front(), rate = 0;
-  for (std::size_t k = 0; k < finer.value.size(); ++k) {
-    if (k % kFiner == 0) recording.channels[1].samples[k / kFiner] = out;
-    rate += step * kCutoff * (kCutoff * (finer.value[k] - out) - std::numbers::sqrt2 * rate);
-    out += step * rate;
-  }
   InPlantSetup setup = oscillator_setup();
   setup.sensors[0].filter = {30, 2};
-  const InPlantReport report =
-      identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 6, .grade = ""});
+  const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, {behind_filter(30)},
+                                                 {.starts = 6, .grade = ""});
   REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.01, 0);
   CHECK_CLOSE(named(report.damper, "c0").value, 12, 0.1, 0);
+}
+
+TEST_CASE("in plant: a sensor behind a filter whose cut-off is found, or told to be none" *
+          doctest::test_suite("long")) {
+  InPlantSetup setup = oscillator_setup();
+  setup.sensors[0].finds_cutoff = CutoffRange{};
+  const auto fit = [&](const PlantRecording& recording) {
+    return identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 6, .grade = ""});
+  };
+  const InPlantReport report = fit(behind_filter(30));
+  REQUIRE(report.has_models());
+  const FittedParameter& cutoff = named(report.nuisances, "cut-off of x");
+  CHECK(cutoff.unit == "Hz");
+  check_covers(cutoff, 30);
+  CHECK_CLOSE(cutoff.value, 30, 0.02, 0);
+  CHECK(cutoff.high - cutoff.low < 2);
+  CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.01, 0);
+  CHECK(as_found(setup, report).sensors[0].filter == SensorFilter{cutoff.value, 2});
+  CHECK_FALSE(as_found(setup, report).sensors[0].finds_cutoff);
+
+  // None is as far as the samples tell.
+  const InPlantReport none = fit(short_recording());
+  REQUIRE(none.has_models());
+  CHECK_CLOSE(named(none.plant, "mass").value, 2, 0.01, 0);
+  CHECK(std::isinf(named(none.nuisances, "cut-off of x").high));
+  CHECK(named(none.nuisances, "cut-off of x").low > 100);
+  CHECK(std::ranges::any_of(none.warnings, [](const std::string& warning) {
+    return contains(warning, "cut-off of x: nothing tells it from no filter");
+  }));
 }
 
 TEST_CASE("in plant: where nothing fits, no number seems certain") {

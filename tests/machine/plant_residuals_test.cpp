@@ -43,6 +43,7 @@ InPlantSetup car() {
   setup.sensors = {{.channel = "body", .place = {PlantQuantity::Acceleration, 0}},
                    {.channel = "level", .place = {PlantQuantity::Deflection, 0}}};
   setup.sensors.back().finds_delay = true;
+  setup.sensors.front().finds_cutoff = CutoffRange{};
   setup.drives = {{.channel = "coil"}};
   return setup;
 }
@@ -98,7 +99,8 @@ TEST_CASE("plant residuals: columns are the differences of runs, however they ar
       const std::vector<double> states{0.01, 0.002, -0.1, 0.05, 0,   0.001,
                                        0.1,  0.2,   0,    0.01, 0.3, -0.1};
       std::vector<double> x = residuals.start({350, 2e5}, states);
-      x[residuals.first_delay()] = 0.7;
+      x[residuals.first_of_sensors()] = 0.7;      // samples late
+      x[residuals.first_of_sensors() + 1] = 1.5;  // samples: a cut-off of a tenth of their rate
       CHECK(worst_column(residuals.problem(), x) < kClose);
     }
   }

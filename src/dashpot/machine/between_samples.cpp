@@ -115,18 +115,25 @@ std::vector<double> delayed(std::span<const double> samples, double sample_time,
 
 std::vector<std::complex<double>> forgetting_integral(std::span<const double> samples,
                                                       std::complex<double> rate) {
-  // The weights of the samples around a step, by Simpson's rule.
-  constexpr int kParts = 16;  // the kernel is smooth over a sample
+  // The weights of the samples around a step, by Simpson's rule over the part of it that a quick
+  // pole does not forget.
+  constexpr int kFewest = 16;         // the kernel is smooth over a sample
+  constexpr double kForgotten = -30;  // of the logarithm: 1e-13 is left
+  constexpr double kFinest = 0.1;     // of the rate, over half a part
+  const double length = std::min(1.0, kForgotten / std::min(rate.real(), -1e-300));
+  const int parts =
+      std::max(kFewest, static_cast<int>(std::ceil(std::abs(rate) * length / (2 * kFinest))));
   std::vector<std::complex<double>> weights(2 * kSamplesAround);
-  for (int part = 0; part <= 2 * kParts; ++part) {
-    const double t = part / (2.0 * kParts);
-    const double share = (part == 0 || part == 2 * kParts ? 1.0
-                          : part % 2 == 1                 ? 4.0
-                                                          : 2.0) /
-                         (6.0 * kParts);
-    const Weights w = weights_at(t);
+  for (int part = 0; part <= 2 * parts; ++part) {
+    const double before = length * (1 - part / (2.0 * parts));  // the end of the step
+    const double share = length *
+                         (part == 0 || part == 2 * parts ? 1.0
+                          : part % 2 == 1                ? 4.0
+                                                         : 2.0) /
+                         (6.0 * parts);
+    const Weights w = weights_at(1 - before);
     for (std::size_t j = 0; j < weights.size(); ++j)
-      weights[j] += share * std::exp(rate * (1 - t)) * w.value[j];
+      weights[j] += share * std::exp(rate * before) * w.value[j];
   }
 
   std::vector<std::complex<double>> taken(samples.size() - 1);

@@ -49,13 +49,12 @@ double white_part(const std::vector<std::vector<double>>& signals) {
 
 /// The white part of what is left at a sensor in free run, over the time that was fitted. The rest
 /// is what the model lacks.
-double white_left(const InPlantSetup& setup, const InPlantReport& report, std::size_t sensor) {
+double white_left(const InPlantReport& report, std::size_t sensor) {
   std::vector<std::vector<double>> left;
   for (const InPlantTrace& trace : report.traces) {
     if (trace.modelled.size() <= sensor) return 0;
     std::vector<double> own;
-    const auto first = static_cast<std::size_t>(setup.skip / trace.sample_time);
-    for (std::size_t k = first; k < trace.training; ++k)
+    for (std::size_t k = trace.first; k < trace.training; ++k)
       own.push_back(trace.measured[sensor][k] - trace.modelled[sensor][k]);
     left.push_back(std::move(own));
   }
@@ -112,7 +111,7 @@ std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantRepo
     const bool was_sought =
         std::ranges::find(report.nuisances, name, &FittedParameter::name) != report.nuisances.end();
     const double noise =
-        was_sought ? among_nuisances(report, sensor.channel) : white_left(setup, report, s);
+        was_sought ? among_nuisances(report, sensor.channel) : white_left(report, s);
     found.push_back({sensor.channel, unit_of(sensor.place, plant), noise,
                      noise > 0 ? zero_of(report, sensor.channel, noise) : 0});
   }

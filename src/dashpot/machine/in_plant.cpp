@@ -152,8 +152,10 @@ void fit_over(std::size_t horizon, const Trial& in, std::vector<Candidate>& all)
       problem.lower[place] = problem.upper[place] = one.x[place];
     };
 
-    // A delay waits for the fit of all.
-    for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d) hold(d);
+    // A delay waits for the fit of all; beside a filter that is not there a law may lose its
+    // memory for good.
+    for (std::size_t own = residuals.first_of_sensors(); own < one.x.size(); ++own)
+      if (residuals.of_sensor(own)->of == SensorUnknown::Of::Delay) hold(own);
     for (std::size_t u = 0; one.held && u < one.held->count(); ++u)
       hold(in.start.plant.size() + one.held->first + u);
     LeastSquaresOptions solver = solver_options(in.options, kIterations, kTolerance);
@@ -298,9 +300,21 @@ Candidate start_in_motion(const Law& law, const InPlantSetup& setup,
   const PlantResiduals residuals(setup, cases, best.unknowns, start.plant, start.scale);
   std::vector<double> x = residuals.start(start.plant, start.states);
   for (std::size_t k = 0; k < x.size(); ++k)
-    if (k < residuals.first_state() || k >= residuals.first_delay()) x[k] = best.x[k];
+    if (k < residuals.first_state() || k >= residuals.first_of_sensors()) x[k] = best.x[k];
   best.x = std::move(x);
   return best;
+}
+
+/// Cut-offs are then looked for near those of the best start, so that less of each recording is
+/// left out until filters have forgotten what was before it: behind much of that nothing tells
+/// where the plant began. The recordings with that.
+PlantCases cases_near(const Candidate& best, const PlantStart& start, const PlantCases& cases,
+                      const std::vector<PlantRecording>& recordings, InPlantSetup& setup) {
+  const PlantResiduals residuals(setup, cases, best.unknowns, start.plant, start.scale);
+  const InPlantSetup found = residuals.setup_at(best.x);
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s)
+    keep_cutoff_near(found.sensors[s].filter, recordings.front().sample_time, setup.sensors[s]);
+  return make_cases(setup, recordings, cases.steps, cases.method);
 }
 
 /// Numbers whose profile is wanted must be among those that are fitted.
@@ -489,7 +503,7 @@ void drop_intervals(InPlantReport& report) {
 }
 
 /// The fit of what is measured, from the best of the starts. No model where the plant diverges.
-InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
+InPlantReport fit_from_starts(const Law& law, InPlantSetup setup,
                               const std::vector<PlantRecording>& recordings,
                               const InPlantOptions& options, FitDoubts& doubts) {
   const double started = cpu_seconds();
@@ -508,6 +522,9 @@ InPlantReport fit_from_starts(const Law& law, const InPlantSetup& setup,
   const DamperUnknowns& unknowns = best.unknowns;
   const std::vector<double>& x = best.x;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
+  if (std::ranges::any_of(setup.sensors,
+                          [](const PlantSensor& one) { return one.finds_cutoff.has_value(); }))
+    cases = cases_near(best, start, cases, recordings, setup);
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
 
   // What can be told is said before the fit.

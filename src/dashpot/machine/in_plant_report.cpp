@@ -13,15 +13,15 @@
 namespace dashpot {
 namespace {
 
-/// Names of plant and law unknowns among these, each once. States at the beginning are nuisances
-/// that nobody asked for: they are named beside others only.
+/// Names of plant, law and sensor unknowns among these, each once. States at the beginning are
+/// nuisances that nobody asked for: they are named beside others only.
 std::vector<std::string> names_of(const InPlantUnknowns& unknowns,
                                   const std::vector<std::size_t>& which) {
   std::vector<std::string> names;
   bool is_asked_for = false;
   for (const std::size_t u : which) {
     const std::string name = unknowns.name(u);
-    is_asked_for |= u < unknowns.plant_unknowns() || unknowns.is_of_law(u);
+    is_asked_for |= u < unknowns.plant_unknowns() || unknowns.is_of_law(u) || unknowns.of_sensor(u);
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   return is_asked_for ? names : std::vector<std::string>{};
@@ -44,6 +44,23 @@ std::vector<bool> weak_ones(const Covariance& spread, std::size_t n) {
   for (const auto& group : spread.confounded)
     for (const std::size_t k : group) weak[k] = true;
   return weak;
+}
+
+/// Cut-offs that may as well be none, and those as low as was looked.
+void add_cutoff_warnings(const InPlantUnknowns& unknowns, std::size_t count,
+                         InPlantReport& report) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const SensorUnknown* one = unknowns.of_sensor(k);
+    if (!one || one->of != SensorUnknown::Of::Cutoff) continue;
+    const FittedParameter& cutoff =
+        *std::ranges::find(report.nuisances, unknowns.name(k), &FittedParameter::name);
+    if (std::isinf(cutoff.high))
+      report.warnings.push_back(cutoff.name + ": nothing tells it from no filter at all; above " +
+                                format_number(cutoff.low, 3) + " Hz, if there is one");
+    else if (cutoff.at_bound)
+      report.warnings.push_back(cutoff.name + " = " + format_number(cutoff.value) +
+                                " Hz stands at a bound of its range");
+  }
 }
 
 }  // namespace
@@ -111,6 +128,7 @@ void add_parameters(const InPlantUnknowns& unknowns, std::span<const double> x,
     const double size[] = {unknowns.size_at(k, x)};
     interval(p, k, size);
     p.weak = weak[k];
+    if (const SensorUnknown* one = unknowns.of_sensor(k)) tell(*one, p);
     (k < unknowns.plant_unknowns() ? report.plant : report.nuisances).push_back(std::move(p));
   }
 
@@ -133,6 +151,7 @@ void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread,
       if (p.at_bound)
         report.warnings.push_back(p.name + " = " + format_number(p.value) + " " + p.unit +
                                   " stands at a bound of its range");
+  add_cutoff_warnings(unknowns, spread.n, report);
   if (const auto names = names_of(unknowns, spread.without_effect); !names.empty())
     report.warnings.push_back(join(names, ", ") + ": no sensor shows an effect");
   for (const auto& names : named_groups(unknowns, spread))

@@ -13,6 +13,7 @@
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/sensor_unknowns.h"
 #include "dashpot/model_file.h"
 
 namespace dashpot {
@@ -105,6 +106,8 @@ class InPlantUnknowns {
   virtual ~InPlantUnknowns() = default;
   virtual std::size_t plant_unknowns() const = 0;
   virtual bool is_of_law(std::size_t k) const = 0;
+  /// Null where k is not of a sensor; else described() has it in s.
+  virtual const SensorUnknown* of_sensor(std::size_t k) const = 0;
   virtual std::string name(std::size_t k) const = 0;
   /// Of plant unknowns and nuisances: name, unit, meaning, value, whether it stands at a bound.
   virtual FittedParameter described(std::size_t k, std::span<const double> x) const = 0;

@@ -9,10 +9,10 @@ namespace dashpot {
 namespace {
 
 Value value_of(const FittedParameter& p) {
-  Value value = Value::object({{"name", p.name}, {"unit", p.unit}, {"value", p.value}});
+  Value value = Value::object({{"name", p.name}, {"unit", p.unit}, {"value", any_number(p.value)}});
   if (has_interval(p)) {
-    value.add("low", p.low);
-    value.add("high", p.high);
+    value.add("low", any_number(p.low));
+    value.add("high", any_number(p.high));
   }
   value.add("fixed", p.fixed);
   value.add("at_bound", p.at_bound);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -59,6 +60,12 @@ struct PlantInputChannel {
   IdentifiedNoise identified = {};
 };
 
+/// Where the cut-off of a filter is looked for, Hz.
+struct CutoffRange {
+  double lower = 0;         ///< 0: nothing is stated (sensor_unknowns.h)
+  double upper = INFINITY;  ///< infinite: there may be no filter
+};
+
 struct PlantSensor {
   std::string channel;
   PlantSensorPlace place;
@@ -67,6 +74,9 @@ struct PlantSensor {
   bool finds_delay = false;  ///< its delay is an unknown
   double delay = 0;          ///< s, known or where the search starts
   SensorFilter filter = {};  ///< before its delay
+  /// The cut-off of its filter is an unknown, and that of `filter` where the search starts (0: at
+  /// no filter).
+  std::optional<CutoffRange> finds_cutoff = {};
   IdentifiedNoise identified = {};
 };
 
@@ -143,6 +153,9 @@ void require_units(const InPlantSetup& setup, const PlantRecording& recording);
 /// For what knows a single damper, and no road that follows another one. Throws Error "has 2
 /// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);
+/// For what cannot find the cut-off of a sensor's filter. Throws Error "its filter's cut-off is
+/// unknown".
+void require_known_cutoffs(const InPlantSetup& setup);
 /// For what knows dampers that are all alike. Throws Error "has dampers of 2 kinds, ...".
 void require_alike(const InPlantSetup& setup, const std::string& who);
 /// The dampers of this name: that in a strut, or those of a kind; none where there is none.
@@ -196,7 +209,8 @@ struct DamperTrace {
 struct InPlantTrace {
   std::string recording;
   double sample_time = 0;
-  std::size_t training = 0;                             ///< samples that were fitted
+  std::size_t first = 0;     ///< sample that was compared first
+  std::size_t training = 0;  ///< samples up to the end of what was fitted
   std::vector<std::vector<double>> measured, modelled;  ///< per sensor; offsets put on
   std::vector<DamperTrace> dampers = {};
 };

@@ -74,6 +74,31 @@ PlantUnknown unknown_within(const ParameterRow& row) {
   return {std::string(row.name), row.lower, row.upper, {}};
 }
 
+/// What is unknown within "300..500 kg", where the unit behind the upper end holds for both;
+/// nothing where the text is no range.
+std::optional<PlantUnknown> range_in(const std::string& text, PlantUnknown unknown,
+                                     std::string_view unit, const std::string& where) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string::npos) return {};
+  const std::string high = text.substr(dots + 2);
+  const std::size_t behind = high.find_first_not_of("0123456789.eE+- ");
+  const std::string low =
+      text.substr(0, dots) + (behind == std::string::npos ? "" : high.substr(behind));
+  unknown.lower = parse_quantity(low, unit, where);
+  unknown.upper = parse_quantity(high, unit, where);
+  return unknown;
+}
+
+/// What is unknown within {from: 300 kg, to: 500 kg, about: 390 kg}, any of which may be missing.
+PlantUnknown read_unknown(const Value& value, PlantUnknown unknown, std::string_view unit) {
+  ObjectReader reader(value, "an unknown number");
+  if (const Value* from = reader.optional("from")) unknown.lower = read_quantity(*from, unit);
+  if (const Value* to = reader.optional("to")) unknown.upper = read_quantity(*to, unit);
+  if (const Value* about = reader.optional("about")) unknown.about = read_quantity(*about, unit);
+  reader.finish();
+  return unknown;
+}
+
 /// "unknown", "300..500 kg" or "2 kg" goes to what is unknown or to what is known.
 void read_number(InPlantSetup& setup, const std::string& name, const std::string& text,
                  const std::string& where) {
@@ -81,16 +106,8 @@ void read_number(InPlantSetup& setup, const std::string& name, const std::string
   const std::string at = where + ", " + name;
   if (text == "unknown") {
     setup.unknown.push_back(unknown_within(row));
-  } else if (const std::size_t dots = text.find(".."); dots != std::string::npos) {
-    // The unit behind the upper end holds for both.
-    const std::string high = text.substr(dots + 2);
-    const std::size_t unit = high.find_first_not_of("0123456789.eE+- ");
-    const std::string low =
-        text.substr(0, dots) + (unit == std::string::npos ? "" : high.substr(unit));
-    PlantUnknown unknown = unknown_within(row);
-    unknown.lower = parse_quantity(low, row.unit, at);
-    unknown.upper = parse_quantity(high, row.unit, at);
-    setup.unknown.push_back(unknown);
+  } else if (const auto unknown = range_in(text, unknown_within(row), row.unit, at)) {
+    setup.unknown.push_back(*unknown);
   } else {
     setup.known.emplace_back(name, parse_value(row, text, at));
   }
@@ -389,16 +406,7 @@ void read_parameters(InPlantSetup& setup, const Value& parameters) {
     if (value.kind() == Value::Kind::Object && value.find("found")) {
       read_found(setup, name, row, value);
     } else if (value.kind() == Value::Kind::Object) {
-      // A range, and where in it the search starts.
-      ObjectReader reader(value, "an unknown parameter");
-      PlantUnknown unknown = unknown_within(row);
-      if (const Value* from = reader.optional("from"))
-        unknown.lower = read_quantity(*from, row.unit);
-      if (const Value* to = reader.optional("to")) unknown.upper = read_quantity(*to, row.unit);
-      if (const Value* about = reader.optional("about"))
-        unknown.about = read_quantity(*about, row.unit);
-      reader.finish();
-      setup.unknown.push_back(unknown);
+      setup.unknown.push_back(read_unknown(value, unknown_within(row), row.unit));
     } else if (value.kind() == Value::Kind::Number) {
       setup.known.emplace_back(name, checked(row, value.as_number(), value.where()));
     } else {
@@ -509,28 +517,46 @@ PlantInputChannel read_input(const Value& value, const Plant& plant) {
   return input;
 }
 
-/// "50 Hz", or {cutoff: 50 Hz, order: 4}.
-SensorFilter read_filter(const Value& value) {
-  SensorFilter filter;
-  if (value.kind() == Value::Kind::String && value.as_string() == "unknown")
-    throw Error(value.where(), "filter: its cut-off is not looked for",
-                "the cut-off in Hz, or 'delay: unknown', which a filter nearly is");
-  if (value.kind() == Value::Kind::Object) {
-    ObjectReader reader(value, "a filter");
-    filter.cutoff = read_quantity(reader.required("cutoff"), "Hz");
-    const double order = reader.number("order", filter.order);
-    if (!(order >= 1 && order <= kMostFilterOrder && order == std::floor(order)))
-      throw Error(value.where(), "filter: its order is " + format_number(order),
-                  fmt::format("1 to {}, of Butterworth's", kMostFilterOrder));
-    filter.order = static_cast<int>(order);
-    reader.finish();
-  } else {
-    filter.cutoff = read_quantity(value, "Hz");
+/// "50 Hz", "unknown", "20..60 Hz" or {about: 30 Hz, from: 20 Hz, to: 60 Hz}.
+void read_cutoff(const Value& value, PlantSensor& sensor) {
+  const PlantUnknown anywhere{"cutoff", 0, INFINITY, {}};
+  std::optional<PlantUnknown> unknown;
+  if (value.kind() == Value::Kind::Object)
+    unknown = read_unknown(value, anywhere, "Hz");
+  else if (value.kind() == Value::Kind::String && value.as_string() == "unknown")
+    unknown = anywhere;
+  else if (value.kind() == Value::Kind::String)
+    unknown = range_in(value.as_string(), anywhere, "Hz", value.where());
+  if (!unknown) {
+    sensor.filter.cutoff = read_quantity(value, "Hz");
+    if (!(sensor.filter.cutoff > 0))
+      throw Error(value.where(), "filter: its cut-off is not above 0 Hz",
+                  "leave it out if there is none");
+    return;
   }
-  if (!(filter.cutoff > 0))
-    throw Error(value.where(), "filter: its cut-off is not above 0 Hz",
-                "leave it out if there is none");
-  return filter;
+
+  // Where it is looked for, and where the search starts.
+  if (!(unknown->lower >= 0 && unknown->lower < unknown->upper))
+    throw Error(value.where(), "filter: its range is none", "from less to more, above 0 Hz");
+  if (unknown->about && !(*unknown->about > 0 && *unknown->about >= unknown->lower &&
+                          *unknown->about <= unknown->upper))
+    throw Error(value.where(), "filter: 'about' lies outside its range");
+  sensor.finds_cutoff = {unknown->lower, unknown->upper};
+  sensor.filter.cutoff = unknown->about.value_or(0);
+}
+
+/// A cut-off, or {cutoff: 50 Hz, order: 4}.
+void read_filter(const Value& value, PlantSensor& sensor) {
+  if (value.kind() != Value::Kind::Object || !value.find("cutoff"))
+    return read_cutoff(value, sensor);
+  ObjectReader reader(value, "a filter");
+  read_cutoff(reader.required("cutoff"), sensor);
+  const double order = reader.number("order", sensor.filter.order);
+  if (!(order >= 1 && order <= kMostFilterOrder && order == std::floor(order)))
+    throw Error(value.where(), "filter: its order is " + format_number(order),
+                fmt::format("1 to {}, of Butterworth's", kMostFilterOrder));
+  sensor.filter.order = static_cast<int>(order);
+  reader.finish();
 }
 
 PlantSensor read_sensor(const Value& value, const Plant& plant) {
@@ -549,7 +575,7 @@ PlantSensor read_sensor(const Value& value, const Plant& plant) {
     sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
     if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
   }
-  if (const Value* filter = reader.optional("filter")) sensor.filter = read_filter(*filter);
+  if (const Value* filter = reader.optional("filter")) read_filter(*filter, sensor);
   reader.finish();
   return sensor;
 }
@@ -563,6 +589,17 @@ void add_noise(double stated, const IdentifiedNoise& identified, const std::stri
   if (is_stated || !(identified.deviation > 0)) return;
   sensor.add("noise_found", with_unit(identified.deviation));
   if (identified.zero > 0) sensor.add("zero_found", with_unit(identified.zero));
+}
+
+/// The cut-off of a sensor's filter, or what is known of it.
+Value cutoff_json(const PlantSensor& sensor) {
+  if (!sensor.finds_cutoff) return sensor.filter.cutoff;
+  const auto& [lower, upper] = *sensor.finds_cutoff;
+  Value known = Value::object();
+  if (lower > 0) known.add("from", lower);
+  if (std::isfinite(upper)) known.add("to", upper);
+  if (sensor.filter.cutoff > 0) known.add("about", sensor.filter.cutoff);
+  return known.members().empty() ? Value("unknown") : known;
 }
 
 /// The kinds of dampers by name, each with its struts.
@@ -699,9 +736,9 @@ Value to_json(const InPlantSetup& setup) {
       one.add("delay", "unknown");
     else if (sensor.delay != 0)
       one.add("delay", sensor.delay);
-    if (sensor.filter.cutoff > 0)
+    if (sensor.finds_cutoff || sensor.filter.cutoff > 0)
       one.add("filter",
-              Value::object({{"cutoff", sensor.filter.cutoff}, {"order", sensor.filter.order}}));
+              Value::object({{"cutoff", cutoff_json(sensor)}, {"order", sensor.filter.order}}));
     sensors.push_back(std::move(one));
   }
   Value file = Value::object({{"plant", setup.model->name}});
@@ -755,9 +792,9 @@ InPlantSetup as_found(InPlantSetup setup, const InPlantReport& report) {
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     PlantSensor& sensor = setup.sensors[s];
     sensor.identified = identified(sensor.channel, sensor.noise);
-    for (const FittedParameter& p : report.nuisances)
-      if (p.name == "delay of " + sensor.channel) sensor.delay = p.value;
+    take_found(lags_found(report.nuisances, sensor.channel), sensor);
     sensor.finds_delay = false;
+    sensor.finds_cutoff.reset();
   }
   return setup;
 }

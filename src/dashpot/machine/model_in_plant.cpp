@@ -73,14 +73,15 @@ InPlantSetup with_noise_found(InPlantSetup setup, const InPlantReport& law) {
   return setup;
 }
 
-/// The setup with the delays of sensors that the law's fit has found, asked for or not.
-InPlantSetup with_delays_found(InPlantSetup setup, const InPlantReport& law) {
-  for (PlantSensor& sensor : setup.sensors)
-    for (const FittedParameter& p : law.nuisances)
-      if (p.name == "delay of " + sensor.channel) {
-        sensor.finds_delay = true;
-        sensor.delay = p.value;
-      }
+/// The setup with the delays and cut-offs of sensors that the law's fit has found, asked for or
+/// not, where the search for them starts.
+InPlantSetup with_lags_found(InPlantSetup setup, const InPlantReport& law) {
+  for (PlantSensor& sensor : setup.sensors) {
+    const FoundLags found = lags_found(law.nuisances, sensor.channel);
+    if (found.delay) sensor.finds_delay = true;
+    if (found.cutoff && !sensor.finds_cutoff) sensor.finds_cutoff = CutoffRange{};
+    take_found(found, sensor);
+  }
   return setup;
 }
 
@@ -182,6 +183,7 @@ Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round&
   for (std::size_t k = 0; k < solved.x.size(); ++k) {
     FittedParameter p = residuals.described(k, solved.x);
     p.low = p.high = std::numeric_limits<double>::quiet_NaN();
+    if (const SensorUnknown* one = residuals.of_sensor(k)) tell(*one, p);
     if (k < before.plant.size()) now.plant.push_back(p.value);
     (k < before.plant.size() ? report.plant : report.nuisances).push_back(std::move(p));
   }
@@ -234,7 +236,7 @@ InPlantReport identify_along(const std::string& model, const InPlantFit& law,
   constexpr std::size_t kSteps = 4;  // of the integrator per sample
   constexpr double kBetter = 0.98;   // of what the round before left
   const double started = cpu_seconds();
-  const InPlantSetup setup = with_delays_found(with_noise_found(stated, law.report), law.report);
+  const InPlantSetup setup = with_lags_found(with_noise_found(stated, law.report), law.report);
   const DataScale scale = scale_of(law.report.traces);
   Round best;
   best.known = as_found(setup, law.report);
@@ -369,7 +371,7 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
 std::vector<Record> bench_records_along(const InPlantReport& fit, const InPlantSetup& stated,
                                         const std::vector<PlantRecording>& recordings,
                                         const InPlantOptions& options) {
-  const InPlantSetup setup = with_delays_found(with_noise_found(stated, fit), fit);
+  const InPlantSetup setup = with_lags_found(with_noise_found(stated, fit), fit);
   const std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
   return as_bench_records(setup, fitted,
                           observe_beside_force(as_found(setup, fit), fitted, fit.traces, options));

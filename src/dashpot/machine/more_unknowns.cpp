@@ -16,7 +16,8 @@
 namespace dashpot {
 
 InPlantSetup with_delays_unknown(InPlantSetup setup) {
-  for (PlantSensor& sensor : setup.sensors) sensor.finds_delay |= sensor.delay == 0;
+  for (PlantSensor& sensor : setup.sensors)
+    sensor.finds_delay |= sensor.delay == 0 && !sensor.finds_cutoff;
   return setup;
 }
 

@@ -7,7 +7,8 @@ namespace dashpot {
 
 // Whether a fit inside a plant would leave clearly less if more were unknown than the plant says.
 
-/// The setup with the delays that it does not state among the unknowns.
+/// The setup with the delays that it does not state among the unknowns, of sensors whose filters
+/// are known.
 InPlantSetup with_delays_unknown(InPlantSetup setup);
 
 /// What speaks for a fit once more, with more unknowns.

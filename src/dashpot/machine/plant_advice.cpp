@@ -261,11 +261,13 @@ Information information_of(const EndedFit& fit, const Manoeuvre& manoeuvre,
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
     setup.sensors[s].noise = fit.residuals.scale_of(s);
   const PlantResiduals residuals(setup, cases, fit.law, fit.plant_start, fit.scale);
-  const std::size_t first = fit.residuals.first_state(), states = residuals.first_delay() - first;
+  const std::size_t first = fit.residuals.first_state(),
+                    states = residuals.first_of_sensors() - first;
   std::vector<double> x(fit.solved.x.begin(),
                         fit.solved.x.begin() + static_cast<std::ptrdiff_t>(first + states));
   for (std::size_t k = first; k < x.size(); ++k) x[k] *= manoeuvre.amplitude;
-  x.insert(x.end(), fit.solved.x.begin() + static_cast<std::ptrdiff_t>(fit.residuals.first_delay()),
+  x.insert(x.end(),
+           fit.solved.x.begin() + static_cast<std::ptrdiff_t>(fit.residuals.first_of_sensors()),
            fit.solved.x.end());
   const LeastSquaresReport at = describe_at(residuals.problem(0, threads), x, {.threads = threads});
   if (at.part_matrices.empty() || !std::isfinite(at.cost)) return {};
@@ -279,7 +281,7 @@ Information information_of(const EndedFit& fit, const Manoeuvre& manoeuvre,
 std::vector<PlantAddition> rides_of(const EndedFit& fit, const Present& present,
                                     const std::vector<NumberOfInterest>& numbers, int threads) {
   const std::size_t n = fit.solved.x.size(), first = fit.residuals.first_state(),
-                    end = fit.residuals.first_delay(), shared = n - (end - first);
+                    end = fit.residuals.first_of_sensors(), shared = n - (end - first);
   const Information now = shared_of(present.information, n, first, end);
   const auto with = [&](const Manoeuvre& manoeuvre) {
     Information sum = information_of(fit, manoeuvre, present.per_sensor, threads);

@@ -8,6 +8,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
 #include "dashpot/machine/damper_drive.h"
+#include "dashpot/machine/sensor_unknowns.h"
 
 namespace dashpot {
 namespace {
@@ -38,7 +39,8 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
     // The part that is fitted: nobody knows what filters held before the first sample.
     double skip = setup.skip;
     for (const PlantSensor& sensor : setup.sensors)
-      if (!setup.from_rest) skip = std::max(skip, memory_of(sensor.filter));
+      if (!setup.from_rest)
+        skip = std::max(skip, memory_of(slowest_filter(sensor, recordings.front().sample_time)));
     one.first = static_cast<std::size_t>(skip / recording.sample_time);
     one.training =
         static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));

@@ -68,7 +68,7 @@ void pass(Bytes& bytes, DamperTrace& d) {
 
 template <class Bytes>
 void pass(Bytes& bytes, InPlantTrace& t) {
-  bytes(t.recording, t.sample_time, t.training, t.measured, t.modelled, t.dampers);
+  bytes(t.recording, t.sample_time, t.first, t.training, t.measured, t.modelled, t.dampers);
 }
 
 template <class Bytes>

@@ -94,16 +94,11 @@ PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& case
   for (std::size_t c = 0; c < cases.all.size(); ++c)
     for (const double size : state_size_) add(size, -kUnbounded, kUnbounded);
 
-  // Delays, in samples.
-  first_delay_ = size_.size();
+  // Delays and times of filters, in samples.
+  first_of_sensors_ = size_.size();
   const PlantCase& first = cases.all.front();
-  constexpr double kMostDelay = 20;  // samples
-  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
-    if (!setup.sensors[s].finds_delay) continue;
-    delays_.push_back(s);
-    const double sample = first.driving.sample_time;
-    add(sample, -kMostDelay * sample, kMostDelay * sample);
-  }
+  of_sensors_ = sensor_unknowns(setup, first.driving.sample_time);
+  for (const SensorUnknown& one : of_sensors_) add(first.driving.sample_time, one.lower, one.upper);
 
   // Each sensor's scale: its noise, or at first a hundredth of what it showed.
   constexpr double kFirstShare = 0.01;
@@ -136,8 +131,8 @@ std::vector<double> PlantResiduals::start(const std::vector<double>& plant,
         first_state_ + k / (2 * coordinates_) * states() + k % (2 * coordinates_);
     x[unknown] = beginnings[k] / size_[unknown];
   }
-  for (std::size_t d = 0; d < delays_.size(); ++d)
-    x[first_delay_ + d] = setup_->sensors[delays_[d]].delay / size_[first_delay_ + d];
+  for (std::size_t k = 0; k < of_sensors_.size(); ++k)
+    x[first_of_sensors_ + k] = start_of(of_sensors_[k], *setup_) / size_[first_of_sensors_ + k];
   return x;
 }
 
@@ -150,12 +145,16 @@ std::vector<double> PlantResiduals::off_bounds(std::vector<double> x) const {
 }
 
 bool PlantResiduals::acts_on(std::size_t k, std::size_t recording) const {
-  const bool is_state = k >= first_state_ && k < first_delay_;
+  const bool is_state = k >= first_state_ && k < first_of_sensors_;
   return !is_state || recording == (k - first_state_) / states();
 }
 
 bool PlantResiduals::is_of_law(std::size_t k) const {
   return k >= plant_unknowns() && k < first_state_;
+}
+
+const SensorUnknown* PlantResiduals::of_sensor(std::size_t k) const {
+  return k >= first_of_sensors_ ? &of_sensors_[k - first_of_sensors_] : nullptr;
 }
 
 std::vector<LawModel> PlantResiduals::laws(std::span<const double> x) const {
@@ -201,7 +200,7 @@ std::vector<LawUnknowns::Coefficient> PlantResiduals::law_coefficients(
 
 std::string PlantResiduals::name(std::size_t k) const {
   if (k < plant_unknowns()) return setup_->unknown[k].name;
-  if (k >= first_delay_) return "delay of " + setup_->sensors[delays_[k - first_delay_]].channel;
+  if (const SensorUnknown* one = of_sensor(k)) return name_of(*one, *setup_);
   if (k >= first_state_) return "state at the beginning";
   return name_in_law(*this, plant_unknowns(), k, size_.size());
 }
@@ -211,7 +210,8 @@ FittedParameter PlantResiduals::described(std::size_t k, std::span<const double>
   const double margin = kAtBound * std::max(1.0, std::abs(x[k]));
   p.at_bound = x[k] <= lower_[k] + margin || x[k] >= upper_[k] - margin;
 
-  // A number of the plant has its row; a delay and a state at the beginning say what they are.
+  // A number of the plant has its row; one of a sensor and a state at the beginning say what they
+  // are.
   if (k < plant_unknowns()) {
     const auto& rows = setup_->model->parameters;
     const ParameterRow& row = rows[row_named(rows, p.name, setup_->model->name, "plant")];
@@ -219,7 +219,7 @@ FittedParameter PlantResiduals::described(std::size_t k, std::span<const double>
     p.meaning = row.meaning;
     return p;
   }
-  if (k >= first_delay_) {
+  if (of_sensor(k)) {
     p.unit = "s";
     return p;
   }
@@ -271,14 +271,6 @@ std::vector<double> PlantResiduals::state_at_first(std::span<const double> x, st
   return state;
 }
 
-std::vector<double> PlantResiduals::delays_at(std::span<const double> x) const {
-  std::vector<double> delays;
-  for (const PlantSensor& sensor : setup_->sensors) delays.push_back(sensor.delay);
-  for (std::size_t d = 0; d < delays_.size(); ++d)
-    delays[delays_[d]] = size_[first_delay_ + d] * x[first_delay_ + d];
-  return delays;
-}
-
 /// What the plant does, before the sensors' filters and delays; where there are any a little
 /// further, so that it is known between samples.
 bool PlantResiduals::move(std::span<const double> x, const DrivenPlant& plant,
@@ -288,7 +280,7 @@ bool PlantResiduals::move(std::span<const double> x, const DrivenPlant& plant,
   std::vector<double> state = state_at_first(x, place, plant, dampers);
   if (one.driving.method == PlantMethod::StraightForce) plant.settle(dampers, one.driving, state);
   const bool may_be_late =
-      !delays_.empty() || std::ranges::any_of(setup_->sensors, [](const PlantSensor& sensor) {
+      !of_sensors_.empty() || std::ranges::any_of(setup_->sensors, [](const PlantSensor& sensor) {
         return sensor.delay != 0 || sensor.filter.cutoff > 0;
       });
   const std::size_t further =
@@ -296,14 +288,23 @@ bool PlantResiduals::move(std::span<const double> x, const DrivenPlant& plant,
   return plant.run(dampers, one.driving, further, sensors, state, shown, beside);
 }
 
+/// Puts what x says of the sensors in them.
+void PlantResiduals::put_sensors(std::span<const double> x,
+                                 std::vector<PlantSensor>& sensors) const {
+  for (std::size_t k = 0; k < of_sensors_.size(); ++k)
+    put(of_sensors_[k], size_[first_of_sensors_ + k] * x[first_of_sensors_ + k], sensors);
+}
+
 /// What comes out of a sensor's filter, and of a late one later.
 void PlantResiduals::sense(std::span<const double> x, double sample_time, std::size_t samples,
                            Shown& shown) const {
-  const std::vector<double> delays = delays_at(x);
-  for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s) {
-    const SensorFilter& filter = setup_->sensors[s].filter;
+  std::vector<PlantSensor> sensors = setup_->sensors;
+  put_sensors(x, sensors);
+  for (std::size_t s = 0; s < sensors.size() && s < shown.size(); ++s) {
+    const SensorFilter& filter = sensors[s].filter;
+    const double delay = sensors[s].delay;
     if (filter.cutoff > 0) shown[s] = behind(filter, shown[s], sample_time);
-    if (delays[s] != 0) shown[s] = delayed(shown[s], sample_time, delays[s]);
+    if (delay != 0) shown[s] = delayed(shown[s], sample_time, delay);
   }
   for (std::vector<double>& one_shown : shown) one_shown.resize(samples);
 }
@@ -401,10 +402,10 @@ bool PlantResiduals::difference(std::span<const double> x, std::size_t place, st
   std::vector<double> moved(x.begin(), x.end());
   moved[k] += step;
 
-  // A delay leaves the plant as it is; another beginning is forgotten.
+  // What is of a sensor leaves the plant as it is; another beginning is forgotten.
   const PlantCase& one = cases_->all[place];
   Shown shown;
-  if (k >= first_delay_) {
+  if (k >= first_of_sensors_) {
     shown = at.shown;
   } else {
     RunBeside beside;
@@ -535,7 +536,7 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) co
 
   // The damper's states at a beginning, which a sharp hysteresis forgets, do not run away.
   constexpr double kMost = 3;  // in the size of the damper's motion
-  for (std::size_t k = first_state_; k < first_delay_ && keeps_states_near(); ++k)
+  for (std::size_t k = first_state_; k < first_of_sensors_ && keeps_states_near(); ++k)
     if (is_of_damper(k)) {
       problem.lower[k] = -kMost;
       problem.upper[k] = kMost;
@@ -594,7 +595,7 @@ bool PlantResiduals::is_of_damper(std::size_t state) const {
 void PlantResiduals::leave_out_forgotten(const LeastSquaresReport& at) {
   constexpr double kFelt = 30;  // scales of a sensor, by all residuals together
   forgotten_.clear();
-  for (std::size_t k = first_state_; k < first_delay_ && keeps_states_near(); ++k) {
+  for (std::size_t k = first_state_; k < first_of_sensors_ && keeps_states_near(); ++k) {
     double square = 0;
     for (const std::vector<double>& part : at.part_matrices) square += part[k * (size_.size() + 1)];
     if (is_of_damper(k) && square < kFelt * kFelt) forgotten_.push_back(k);
@@ -629,10 +630,7 @@ InPlantSetup PlantResiduals::setup_at(std::span<const double> x) const {
   for (std::size_t k = 0; k < plant_unknowns(); ++k)
     setup.known.emplace_back(setup.unknown[k].name, described(k, x).value);
   setup.unknown.clear();
-  for (std::size_t d = 0; d < delays_.size(); ++d) {
-    setup.sensors[delays_[d]].delay = size_[first_delay_ + d] * x[first_delay_ + d];
-    setup.sensors[delays_[d]].finds_delay = false;
-  }
+  put_sensors(x, setup.sensors);
   return setup;
 }
 
@@ -730,6 +728,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
     const std::size_t count = one.driving.samples, stride = one.driving.stride();
     InPlantTrace trace{.recording = one.name,
                        .sample_time = one.driving.sample_time,
+                       .first = one.first,
                        .training = one.training,
                        .measured = one.measured};
     Shown shown;

@@ -13,16 +13,16 @@
 #include "dashpot/machine/input_noise.h"
 #include "dashpot/machine/plant_cases.h"
 #include "dashpot/machine/plant_recording.h"
+#include "dashpot/machine/sensor_unknowns.h"
 #include "dashpot/numerics/least_squares.h"
 
 namespace dashpot {
 
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
-/// delays. The law is that of every damper in the plant, with numbers of its own in each kind. A
-/// model may stand in the law's place, held as it is: then the dampers have no unknowns, and their
-/// states begin at rest. All that it is made
-/// from must outlive it.
+/// delays and cut-offs. The law is that of every damper in the plant, with numbers of its own in
+/// each kind. A model may stand in the law's place, held as it is: then the dampers have no
+/// unknowns, and their states begin at rest. All that it is made from must outlive it.
 class PlantResiduals : public InPlantUnknowns {
  public:
   using Shown = std::vector<std::vector<double>>;  ///< per sensor
@@ -58,12 +58,14 @@ class PlantResiduals : public InPlantUnknowns {
   /// which the inputs are known, per recording of these, which must outlive this; nullptr: samples
   /// again.
   void look_at_lines(const std::vector<RecordingNoise>* noise) { noise_ = noise; }
-  /// The setup with all that x says: the plant's numbers and delays.
+  /// The setup with all that x says: the plant's numbers and what is found of sensors.
   InPlantSetup setup_at(std::span<const double> x) const;
 
   std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
-  std::size_t first_delay() const { return first_delay_; }
+  /// Behind the states at the beginnings: delays and cut-offs of sensors.
+  std::size_t first_of_sensors() const { return first_of_sensors_; }
   bool is_of_law(std::size_t k) const override;
+  const SensorUnknown* of_sensor(std::size_t k) const override;
   std::string name(std::size_t k) const override;
   double size_at(std::size_t k, std::span<const double>) const override { return size_[k]; }
   FittedParameter described(std::size_t k, std::span<const double> x) const override;
@@ -111,9 +113,9 @@ class PlantResiduals : public InPlantUnknowns {
             const PlantCase& one, std::size_t place, std::size_t samples,
             std::span<const PlantSensorPlace> sensors, Shown& shown,
             const RunBeside& beside = {}) const;
+  void put_sensors(std::span<const double> x, std::vector<PlantSensor>& sensors) const;
   void sense(std::span<const double> x, double sample_time, std::size_t samples,
              Shown& shown) const;
-  std::vector<double> delays_at(std::span<const double> x) const;
   std::size_t end_of(const PlantCase& one, std::size_t samples) const;
   bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r,
                 int threads) const;
@@ -152,9 +154,9 @@ class PlantResiduals : public InPlantUnknowns {
   std::vector<PlantSensorPlace> sensors_;
   std::vector<double> scale_;  ///< per sensor
   std::size_t coordinates_ = 0;
-  std::vector<double> state_size_;   ///< of q, q', each damper's states of the law; empty: rest
-  std::vector<std::size_t> delays_;  ///< sensors whose delay is an unknown
-  std::size_t first_state_ = 0, first_delay_ = 0;  ///< places among the unknowns
+  std::vector<double> state_size_;  ///< of q, q', each damper's states of the law; empty: rest
+  std::vector<SensorUnknown> of_sensors_;
+  std::size_t first_state_ = 0, first_of_sensors_ = 0;  ///< places among the unknowns
   std::vector<double> size_, lower_, upper_;
   std::vector<std::size_t> forgotten_;  ///< unknowns that are left out
   const std::vector<RecordingNoise>* noise_ = nullptr;

@@ -32,13 +32,11 @@ double product_of(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / static_cast<double>(a.size());
 }
 
-std::vector<SensorPair> pairs_of(std::size_t sensor, const InPlantSetup& setup,
-                                 const std::vector<InPlantTrace>& traces) {
+std::vector<SensorPair> pairs_of(std::size_t sensor, const std::vector<InPlantTrace>& traces) {
   std::vector<SensorPair> pairs;
   for (const InPlantTrace& trace : traces) {
-    const auto first = static_cast<std::size_t>(std::lround(setup.skip / trace.sample_time));
     const auto fitted = [&](const std::vector<double>& samples) {
-      return without_mean(std::span(samples).subspan(first, trace.training - first));
+      return without_mean(std::span(samples).subspan(trace.first, trace.training - trace.first));
     };
     SensorPair pair{trace.sample_time, fitted(trace.measured[sensor]),
                     fitted(trace.modelled[sensor])};
@@ -250,7 +248,7 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
   double least = INFINITY;
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const std::string& channel = setup.sensors[s].channel;
-    const std::vector<SensorPair> pairs = pairs_of(s, setup, traces);
+    const std::vector<SensorPair> pairs = pairs_of(s, traces);
     const double away = std::sqrt(left_at(pairs));
     if (away < least) {
       least = away;
@@ -282,13 +280,13 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
 
 bool is_far_off(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces) {
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
-    if (std::sqrt(left_at(pairs_of(s, setup, traces))) <= kFarAway) return false;
+    if (std::sqrt(left_at(pairs_of(s, traces))) <= kFarAway) return false;
   return true;
 }
 
 bool seems_late(const InPlantSetup& setup, const std::vector<InPlantTrace>& traces) {
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
-    if (main_flaw(pairs_of(s, setup, traces)).of == MainFlaw::Of::Delay) return true;
+    if (main_flaw(pairs_of(s, traces)).of == MainFlaw::Of::Delay) return true;
   return false;
 }
 

@@ -117,7 +117,7 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
                                        const DamperUnknowns& law, const std::vector<double>& plant,
                                        const ObserverNoise& first, double force, bool has_more)
     : setup_(&setup), rides_(&rides), law_(&law), first_(first) {
-  constexpr double kMostDelay = 20, kOfSampleRate = 0.4, kOfWaves = 0.9, kMostBeside = 10;
+  constexpr double kOfSampleRate = 0.4, kOfWaves = 0.9, kMostBeside = 10;
   sample_time_ = rides.front().recording->sample_time;
   pairs_ = road_pairs(setup);
   if (!pairs_.empty() && first_.track_width == 0) first_.track_width = kUsualTrack;
@@ -145,13 +145,12 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
   lower_.insert(lower_.end(), law.lower().begin(), law.lower().end());
   upper_.insert(upper_.end(), law.upper().begin(), law.upper().end());
 
-  // Delays, in samples, then what is uncertain.
-  first_delay_ = lower_.size();
-  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
-    if (!setup.sensors[s].finds_delay) continue;
-    delays_.push_back(s);
-    lower_.push_back(-kMostDelay);
-    upper_.push_back(kMostDelay);
+  // Delays and times of filters, in samples, then what is uncertain.
+  first_of_sensors_ = lower_.size();
+  of_sensors_ = sensor_unknowns(setup, sample_time_);
+  for (const SensorUnknown& one : of_sensors_) {
+    lower_.push_back(one.lower / sample_time_);
+    upper_.push_back(one.upper / sample_time_);
   }
   first_noise_ = lower_.size();
   seek_noise(force);
@@ -232,7 +231,7 @@ std::vector<double> SpectralLikelihood::start(const std::vector<double>& plant,
   std::vector<double> x;
   for (std::size_t k = 0; k < plant.size(); ++k) x.push_back(plant[k] / plant_[k]);
   x.insert(x.end(), law.begin(), law.end());
-  for (const std::size_t s : delays_) x.push_back(setup_->sensors[s].delay / sample_time_);
+  for (const SensorUnknown& one : of_sensors_) x.push_back(start_of(one, *setup_) / sample_time_);
   ObserverNoise noise = first_;
   for (const Sought& one : sought_) x.push_back(std::log(*one.place(noise)));
   x.resize(size());  // nothing beside the law
@@ -257,10 +256,8 @@ InPlantSetup SpectralLikelihood::setup_at(std::span<const double> x) const {
         setup.unknown[k].name,
         std::clamp(plant_[k] * x[k], setup.unknown[k].lower, setup.unknown[k].upper));
   setup.unknown.clear();
-  for (std::size_t d = 0; d < delays_.size(); ++d) {
-    setup.sensors[delays_[d]].delay = x[first_delay_ + d] * sample_time_;
-    setup.sensors[delays_[d]].finds_delay = false;
-  }
+  for (std::size_t k = 0; k < of_sensors_.size(); ++k)
+    put(of_sensors_[k], x[first_of_sensors_ + k] * sample_time_, setup.sensors);
   const ObserverNoise uncertain = noise(x);
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
     setup.sensors[s].noise = uncertain.sensors[s];
@@ -387,7 +384,11 @@ bool SpectralLikelihood::evaluate(std::span<const double> x, std::size_t which, 
 }
 
 bool SpectralLikelihood::is_of_law(std::size_t k) const {
-  return k >= plant_unknowns() && k < first_delay_;
+  return k >= plant_unknowns() && k < first_of_sensors_;
+}
+
+const SensorUnknown* SpectralLikelihood::of_sensor(std::size_t k) const {
+  return k >= first_of_sensors_ && k < first_noise_ ? &of_sensors_[k - first_of_sensors_] : nullptr;
 }
 
 std::vector<LawUnknowns::Coefficient> SpectralLikelihood::law_coefficients(
@@ -399,7 +400,7 @@ std::string SpectralLikelihood::name(std::size_t k) const {
   if (k < plant_unknowns()) return setup_->unknown[k].name;
   if (k >= first_more_) return k == first_more_ ? "spring" : "dashpot";
   if (k >= first_noise_) return sought_[k - first_noise_].name;
-  if (k >= first_delay_) return "delay of " + setup_->sensors[delays_[k - first_delay_]].channel;
+  if (const SensorUnknown* one = of_sensor(k)) return name_of(*one, *setup_);
   return name_in_law(*this, plant_unknowns(), k, size());
 }
 

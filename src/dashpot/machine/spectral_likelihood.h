@@ -39,11 +39,12 @@ struct RiddenRecording {
 /// as an input it would count as if it did not follow from the road.) The
 /// end terms, polynomials in i w over the plant's denominator (Pintelon and Schoukens, System
 /// Identification, 2012, chapter 6), stand for the states at both ends; they are eliminated.
-/// Delays are exact.
+/// Delays and filters are exact.
 ///
-/// The unknowns: the plant's numbers, each in the size at which it starts; the law's; delays of
-/// sensors, in samples; logarithms of what is uncertain and was not stated; where they are asked
-/// for, a spring and a dashpot beside the law. All that it is made from must outlive it.
+/// The unknowns: the plant's numbers, each in the size at which it starts; the law's; delays and
+/// times of filters of sensors, in samples; logarithms of what is uncertain and was not stated;
+/// where they are asked for, a spring and a dashpot beside the law. All that it is made from must
+/// outlive it.
 class SpectralLikelihood final : public InPlantUnknowns {
  public:
   /// force: half span of the damper's, N, for the limits of the law's error.
@@ -80,7 +81,7 @@ class SpectralLikelihood final : public InPlantUnknowns {
   /// The law of each kind of damper.
   std::vector<LawModel> laws(std::span<const double> x) const;
   ObserverNoise noise(std::span<const double> x) const;
-  /// The setup with all that x says: the plant's numbers, delays, noise and road.
+  /// The setup with all that x says: the plant's numbers, noise, road and what is found of sensors.
   InPlantSetup setup_at(std::span<const double> x) const;
   bool is_noise(std::size_t k) const { return k >= first_noise_ && k < first_more_; }
   /// A spring or a dashpot beside the law, which start at 0; from here on it stays there.
@@ -90,6 +91,7 @@ class SpectralLikelihood final : public InPlantUnknowns {
 
   std::size_t plant_unknowns() const override { return setup_->unknown.size(); }
   bool is_of_law(std::size_t k) const override;
+  const SensorUnknown* of_sensor(std::size_t k) const override;
   std::string name(std::size_t k) const override;
   FittedParameter described(std::size_t k, std::span<const double> x) const override;
   double size_at(std::size_t k, std::span<const double> x) const override;
@@ -123,9 +125,9 @@ class SpectralLikelihood final : public InPlantUnknowns {
   double sample_time_, highest_;
   std::vector<PlantInputPlace> inputs_;
   std::vector<RoadPair> pairs_;
-  std::vector<std::size_t> delays_;                     ///< sensors whose delay is an unknown
-  std::size_t first_delay_, first_noise_, first_more_;  ///< places among the unknowns
-  StandIn more_ = {};                                   ///< sizes of what stands beside the law
+  std::vector<SensorUnknown> of_sensors_;
+  std::size_t first_of_sensors_, first_noise_, first_more_;  ///< places among the unknowns
+  StandIn more_ = {};  ///< sizes of what stands beside the law
   std::vector<Sought> sought_;
   std::vector<double> lower_, upper_;
   std::vector<Ride> prepared_;

@@ -191,6 +191,7 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
     if (sensor.finds_delay)
       throw Error("plant, " + sensor.channel, "its delay is unknown",
                   "its value: 'dashpot identify --in' writes it into plants/");
+  require_known_cutoffs(setup);
 
   // Enough days to learn from, with what explains a day.
   const std::size_t known = 1 + options.known.size() +
