@@ -113,6 +113,49 @@ PlantRecording behind_filter(double cutoff) {
   return recording;
 }
 
+/// A quarter car with the modified Bouc-Wen damper spencer1997, or with another one, on a road of
+/// class C.
+Record car_ride(double voltage, std::uint64_t seed, const ModelFile* damper = nullptr) {
+  VehicleWords words;
+  words.plant = "quarter_car";
+  words.current = voltage;
+  words.dampers = {"spencer1997"};
+  const Vehicle car = damper ? make_vehicle(words, *damper) : make_vehicle(words);
+  const GroundPointer road = make_ground("iso8608,class=C,speed=20m/s", seed);
+  SimulateOptions options = car.options(8);
+  options.output_step = 0.002;
+  return simulate(car.on(*road), options).record;
+}
+
+/// At two voltages.
+std::vector<PlantRecording> car_rides() {
+  std::vector<PlantRecording> recordings;
+  for (const double voltage : {0.0, 2.0})
+    recordings.push_back(virtual_recording(car_ride(voltage, 1),
+                                           {{"tyre_road", 2e-4},
+                                            {"body_acceleration", 0.05},
+                                            {"wheel_acceleration", 0.5},
+                                            {"suspension_deflection", 2e-4},
+                                            {"suspension_current", 0}},
+                                           3));
+  return recordings;
+}
+
+InPlantSetup car_setup() {
+  InPlantSetup setup;
+  setup.model = &find_machine("quarter_car", "test");
+  setup.known = {{"unsprung_mass", 139.5}, {"spring_stiffness", 37300}, {"tyre_stiffness", 295200}};
+  setup.unknown = {{"sprung_mass", 100, 1000, 300}};
+  setup.inputs = {{"tyre_road", {PlantInput::Ground, 0}}};
+  setup.sensors = {{.channel = "body_acceleration", .place = {PlantQuantity::Acceleration, 0}},
+                   {.channel = "wheel_acceleration", .place = {PlantQuantity::Acceleration, 1}},
+                   {.channel = "suspension_deflection", .place = {PlantQuantity::Deflection, 0}}};
+  setup.drives = {{.channel = "suspension_current"}};
+  setup.drive_unit = DriveUnit::Volt;
+  setup.skip = 0.2;
+  return setup;
+}
+
 }  // namespace
 
 TEST_CASE("between samples: a sine at a fifth of the rate and its derivative; straight lines") {
@@ -278,6 +321,20 @@ TEST_CASE("in plant: a sensor behind a filter whose cut-off is found, or told to
   }));
 }
 
+TEST_CASE("in plant: a delay and a filter of one sensor that cannot be told apart are named" *
+          doctest::test_suite("long")) {
+  InPlantSetup setup = oscillator_setup();
+  setup.sensors[0].finds_delay = true;
+  setup.sensors[0].finds_cutoff = CutoffRange{};
+  const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, {short_recording()},
+                                                 {.starts = 3, .grade = ""});
+  REQUIRE(report.has_models());
+  CHECK(named(report.nuisances, "delay of x").weak);
+  CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    return contains(warning, "delay of x and cut-off of x cannot be told apart");
+  }));
+}
+
 TEST_CASE("in plant: where nothing fits, no number seems certain") {
   PlantRecording recording = short_recording();
   std::ranges::reverse(recording.channels[0].samples);  // another push than the one that moved it
@@ -388,40 +445,8 @@ TEST_CASE("in plant: a building's damper from its floors' accelerations on shaki
 
 TEST_CASE("in plant: a virtual quarter car whose damper is of another structure" *
           doctest::test_suite("long")) {
-  // The truth: the modified Bouc-Wen damper spencer1997, two voltages, a road of class C.
-  const auto ride = [](double voltage, std::uint64_t seed, const std::vector<std::string>& values,
-                       const ModelFile* damper) {
-    VehicleWords words;
-    words.plant = "quarter_car";
-    words.values = values;
-    words.current = voltage;
-    words.dampers = {"spencer1997"};
-    const Vehicle car = damper ? make_vehicle(words, *damper) : make_vehicle(words);
-    const GroundPointer road = make_ground("iso8608,class=C,speed=20m/s", seed);
-    SimulateOptions options = car.options(8);
-    options.output_step = 0.002;
-    return simulate(car.on(*road), options).record;
-  };
-  std::vector<PlantRecording> recordings;
-  for (const double voltage : {0.0, 2.0})
-    recordings.push_back(virtual_recording(ride(voltage, 1, {}, nullptr),
-                                           {{"tyre_road", 2e-4},
-                                            {"body_acceleration", 0.05},
-                                            {"wheel_acceleration", 0.5},
-                                            {"suspension_deflection", 2e-4},
-                                            {"suspension_current", 0}},
-                                           3));
-  InPlantSetup setup;
-  setup.model = &find_machine("quarter_car", "test");
-  setup.known = {{"unsprung_mass", 139.5}, {"spring_stiffness", 37300}, {"tyre_stiffness", 295200}};
-  setup.unknown = {{"sprung_mass", 100, 1000, 300}};
-  setup.inputs = {{"tyre_road", {PlantInput::Ground, 0}}};
-  setup.sensors = {{.channel = "body_acceleration", .place = {PlantQuantity::Acceleration, 0}},
-                   {.channel = "wheel_acceleration", .place = {PlantQuantity::Acceleration, 1}},
-                   {.channel = "suspension_deflection", .place = {PlantQuantity::Deflection, 0}}};
-  setup.drives = {{.channel = "suspension_current"}};
-  setup.drive_unit = DriveUnit::Volt;
-  setup.skip = 0.2;
+  const std::vector<PlantRecording> recordings = car_rides();
+  const InPlantSetup setup = car_setup();
   const InPlantReport report =
       identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 4, .grade = ""});
   REQUIRE(report.has_models());
@@ -433,8 +458,8 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
   file.drive_unit = DriveUnit::Volt;
   file.domain = report.kinds.front().domain;
   for (const double voltage : {0.0, 2.0}) {
-    const Record truth = ride(voltage, 9, {}, nullptr);
-    const Record modelled = ride(voltage, 9, {}, &file);
+    const Record truth = car_ride(voltage, 9);
+    const Record modelled = car_ride(voltage, 9, &file);
     const std::vector<double>& f = truth.channel("suspension_force").samples;
     const std::vector<double>& g = modelled.channel("suspension_force").samples;
     double squares = 0;
@@ -442,6 +467,39 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
     const auto [low, high] = std::ranges::minmax(f);
     CHECK(std::sqrt(squares / static_cast<double>(f.size())) < 0.02 * (high - low));
   }
+}
+
+TEST_CASE("in plant: filters are found out unasked, and delays stay delays" *
+          doctest::test_suite("long")) {
+  const InPlantSetup setup = car_setup();
+  const auto fit = [&](const auto& sensor) {
+    std::vector<PlantRecording> recordings = car_rides();
+    for (PlantRecording& recording : recordings)
+      for (const PlantSensor& one : setup.sensors) {
+        std::vector<double>& samples =
+            std::ranges::find(recording.channels, one.channel, &Channel::name)->samples;
+        samples = sensor(samples, recording.sample_time);
+      }
+    return identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 4, .grade = ""});
+  };
+  const InPlantReport filtered = fit([](const std::vector<double>& samples, double sample_time) {
+    return behind({40, 2}, samples, sample_time);
+  });
+  REQUIRE(filtered.has_models());
+  CHECK_CLOSE(named(filtered.nuisances, "cut-off of wheel_acceleration").value, 40, 0.02, 0);
+  CHECK_CLOSE(named(filtered.nuisances, "cut-off of suspension_deflection").value, 40, 0.02, 0);
+  CHECK(contains(filtered.warnings.back(),
+                 "the sensor wheel_acceleration is as if behind a low-pass of"));
+  const InPlantSetup found = as_found(setup, filtered);
+  CHECK_CLOSE(found.sensors[1].filter.cutoff, 40, 0.02, 0);
+  CHECK(found.sensors[1].delay == 0);
+
+  const InPlantReport late = fit([](const std::vector<double>& samples, double sample_time) {
+    return delayed(samples, sample_time, 0.006);
+  });
+  REQUIRE(late.has_models());
+  CHECK_CLOSE(named(late.nuisances, "delay of wheel_acceleration").value, 0.006, 0.02, 0);
+  CHECK(contains(late.warnings.back(), "not at one time: delay of"));
 }
 
 TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *

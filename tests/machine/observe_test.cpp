@@ -643,6 +643,11 @@ TEST_CASE("observe: what cannot be is said with what would be right") {
   CHECK(
       contains(message_of([&] { observe(damper, kCarDomain, unknown, {ride.recorded}, options); }),
                "unsprung_mass: is unknown; its value: 'dashpot identify --in' writes"));
+  InPlantSetup filtered = ride.setup;
+  filtered.sensors.back().finds_cutoff = CutoffRange{};
+  CHECK(
+      contains(message_of([&] { observe(damper, kCarDomain, filtered, {ride.recorded}, options); }),
+               "the cut-off of its filter is unknown; its value: 'dashpot identify --in' writes"));
   PlantRecording brief = ride.recorded;
   brief.samples = 20;
   CHECK(contains(message_of([&] { observe(damper, kCarDomain, ride.setup, {brief}, options); }),

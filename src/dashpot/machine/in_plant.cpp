@@ -642,6 +642,26 @@ double share_left(const InPlantReport& report) {
   return sum;
 }
 
+/// Once more with filters in the place of delays that were found unasked, where they may explain
+/// more. Taken where that leaves less.
+InPlantReport fit_behind_filters(const Law& law, const InPlantSetup& stated,
+                                 const InPlantSetup& beside,
+                                 const std::vector<PlantRecording>& recordings,
+                                 const InPlantOptions& options, FitDoubts doubts,
+                                 InPlantReport late) {
+  constexpr double kLess = 0.75;
+  std::erase_if(doubts.as_if_filtered,
+                [&](std::size_t s) { return stated.sensors[s].finds_delay; });
+  if (doubts.as_if_filtered.empty()) return late;
+  const InPlantSetup behind =
+      with_filters_for_delays(beside, doubts.as_if_filtered, late.nuisances);
+  FitDoubts then;
+  InPlantReport report = fit_somehow(law, behind, recordings, options, then);
+  if (!report.has_models() || !(share_left(report) < kLess * share_left(late))) return late;
+  report.warnings.push_back(filters_found(stated, behind, report));
+  return report;
+}
+
 /// Once more with the delays that the plant does not state among the unknowns. Taken where that
 /// leaves clearly less.
 InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
@@ -657,7 +677,7 @@ InPlantReport fit_beside_delays(const Law& law, const InPlantSetup& setup,
   if (!report.has_models() || !(share_left(report) < kClearly * share_left(as_stated)))
     return as_stated;
   report.warnings.push_back(delays_found(setup, beside, report));
-  return report;
+  return fit_behind_filters(law, setup, beside, recordings, options, doubts, std::move(report));
 }
 
 /// Once more with dampers that are not alike, of which the plant does not say that they are. Taken

@@ -159,18 +159,44 @@ void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread,
                               " cannot be told apart by these sensors; --fix one of them");
 }
 
-std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
-                         const InPlantReport& report) {
+namespace {
+
+/// Each delay that `beside` asks for and `stated` does not.
+std::vector<std::string> found_delays(const InPlantSetup& stated, const InPlantSetup& beside,
+                                      const InPlantReport& report) {
   std::vector<std::string> found;
   for (std::size_t s = 0; s < stated.sensors.size(); ++s) {
     if (stated.sensors[s].finds_delay || !beside.sensors[s].finds_delay) continue;
-    const std::string name = "delay of " + stated.sensors[s].channel;
-    for (const FittedParameter& p : report.nuisances)
-      if (p.name == name) found.push_back(name + ' ' + format_number(1000 * p.value, 3) + " ms");
+    const FittedParameter& p = *lags_found(report.nuisances, stated.sensors[s].channel).delay;
+    found.push_back(p.name + ' ' + format_number(1000 * p.value, 3) + " ms");
   }
+  return found;
+}
+
+}  // namespace
+
+std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
+                         const InPlantReport& report) {
+  const std::vector<std::string> found = found_delays(stated, beside, report);
   return "sensors and inputs are not at one time: " + join(found, ", ") +
          ", which the plant does not state, were found beside all else; where a filter makes them, "
          "state it ('filter: 50 Hz' at the sensor)";
+}
+
+std::string filters_found(const InPlantSetup& stated, const InPlantSetup& beside,
+                          const InPlantReport& report) {
+  std::vector<std::string> found;
+  for (std::size_t s = 0; s < stated.sensors.size(); ++s) {
+    if (stated.sensors[s].finds_cutoff || !beside.sensors[s].finds_cutoff) continue;
+    const std::string& channel = stated.sensors[s].channel;
+    const FittedParameter& p = *lags_found(report.nuisances, channel).cutoff;
+    found.push_back("the sensor " + channel + " is as if behind a low-pass of " +
+                    format_number(p.value, 3) + " Hz");
+  }
+  const std::vector<std::string> delays = found_delays(stated, beside, report);
+  return join(found, ", ") + (delays.empty() ? "" : ", beside the " + join(delays, ", ")) +
+         ", which the plant does not state and which was found beside all else: state it ('filter: "
+         "unknown' at the sensor, with its order where that is not the second)";
 }
 
 std::string unlike_found(const InPlantSetup& unlike) {

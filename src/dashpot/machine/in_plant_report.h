@@ -140,6 +140,11 @@ void add_warnings(const InPlantUnknowns& unknowns, const Covariance& spread, InP
 std::string delays_found(const InPlantSetup& stated, const InPlantSetup& beside,
                          const InPlantReport& report);
 
+/// The filters that `beside` looks for and `stated` does not, and the delays that are left, as a
+/// warning.
+std::string filters_found(const InPlantSetup& stated, const InPlantSetup& beside,
+                          const InPlantReport& report);
+
 /// The kinds of dampers that were taken for unlike, as a warning.
 std::string unlike_found(const InPlantSetup& unlike);
 

@@ -11,6 +11,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/machine/damper_unknowns.h"
 #include "dashpot/machine/plant_residuals.h"
+#include "dashpot/machine/sensor_unknowns.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
@@ -18,6 +19,18 @@ namespace dashpot {
 InPlantSetup with_delays_unknown(InPlantSetup setup) {
   for (PlantSensor& sensor : setup.sensors)
     sensor.finds_delay |= sensor.delay == 0 && !sensor.finds_cutoff;
+  return setup;
+}
+
+InPlantSetup with_filters_for_delays(InPlantSetup setup, const std::vector<std::size_t>& sensors,
+                                     const std::vector<FittedParameter>& nuisances) {
+  for (const std::size_t s : sensors) {
+    PlantSensor& sensor = setup.sensors[s];
+    sensor.filter = as_late_as(lags_found(nuisances, sensor.channel).delay->value);
+    sensor.finds_cutoff = CutoffRange{};
+    sensor.finds_delay = false;
+    sensor.delay = 0;
+  }
   return setup;
 }
 
@@ -41,8 +54,12 @@ std::optional<Linear> linear_at(const LeastSquaresProblem& problem, const std::v
   return at;
 }
 
-/// The share of the misfit that would go, to first order, with `more` beside the unknowns of a fit.
-double gain_by(const Linear& fit, const Linear::Columns& more, int threads) {
+/// What `more` beside the unknowns of a fit would do, to first order.
+struct GainByMore {
+  double share = 0;                ///< of the misfit that would go
+  std::vector<double> steps = {};  ///< along each of `more`
+};
+GainByMore gain_by(const Linear& fit, const Linear::Columns& more, int threads) {
   const auto along = [](const std::vector<double>& a, const std::vector<double>& b) {
     return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
   };
@@ -50,7 +67,8 @@ double gain_by(const Linear& fit, const Linear::Columns& more, int threads) {
     return k < fit.columns.size() ? fit.columns[k] : more[k - fit.columns.size()];
   };
 
-  // What the best step would take off, with so many of the columns.
+  // What the best step would take off, with so many of the columns, and that step.
+  std::vector<double> best;
   const auto gain_of = [&](std::size_t n) {
     std::vector<double> matrix(n * n), slope(n), size(n);
     parallel_for(n, threads, [&](std::size_t i) {
@@ -64,10 +82,15 @@ double gain_by(const Linear& fit, const Linear::Columns& more, int threads) {
       for (std::size_t k = 0; k < n; ++k) matrix[i * n + k] /= size[i] * size[k];
       matrix[i * (n + 1)] += kTrace;
     }
-    return along(slope, solve(matrix, slope));
+    best = solve(matrix, slope);
+    const double gain = along(slope, best);
+    for (std::size_t i = 0; i < n; ++i) best[i] /= -size[i];
+    return gain;
   };
   const std::size_t own = fit.columns.size();
-  return (gain_of(own + more.size()) - gain_of(own)) / along(fit.residuals, fit.residuals);
+  const double before = gain_of(own), gain = gain_of(own + more.size()) - before;
+  return {gain / along(fit.residuals, fit.residuals),
+          {best.begin() + static_cast<std::ptrdiff_t>(own), best.end()}};
 }
 
 /// The setup of a fit that has ended with the weights of its sensors as their noise.
@@ -99,6 +122,42 @@ Linear::Columns columns_of_delays(const EndedFit& fit, const std::vector<double>
   return columns;
 }
 
+/// Sensors whose delay was found, where the residuals ask for what a filter as late would change
+/// rather than for the delay.
+std::vector<std::size_t> sensors_as_if_filtered(const EndedFit& fit, const Linear& at,
+                                                int threads) {
+  constexpr double kLateEnough = 0.5;  // samples
+  constexpr double kGain = 0.15, kRather = 0.5;
+  std::vector<std::size_t> sensors;
+  Linear::Columns columns;
+  for (std::size_t k = fit.residuals.first_of_sensors(); k < fit.solved.x.size(); ++k) {
+    const SensorUnknown& one = *fit.residuals.of_sensor(k);
+    const double delay = fit.residuals.described(k, fit.solved.x).value;
+    if (one.of != SensorUnknown::Of::Delay || fit.setup.sensors[one.sensor].filter.cutoff > 0 ||
+        fit.setup.sensors[one.sensor].finds_cutoff ||
+        delay < kLateEnough * fit.cases.all.front().driving.sample_time)
+      continue;
+    InPlantSetup filtered = weighed(fit);
+    filtered.sensors[one.sensor].filter = as_late_as(delay);
+    std::vector<double> x = fit.solved.x;
+    x[k] = 0;
+    const PlantResiduals other(filtered, fit.cases, fit.law, fit.plant_start, fit.scale);
+    columns.push_back(at.residuals);
+    if (!other.problem(0, threads).residual(x, columns.back())) return {};
+    for (std::size_t i = 0; i < at.residuals.size(); ++i) columns.back()[i] -= at.residuals[i];
+    sensors.push_back(one.sensor);
+  }
+  if (sensors.empty()) return {};
+
+  // All the way from the delay to the filter is a step of 1.
+  const GainByMore gain = gain_by(at, columns, threads);
+  std::vector<std::size_t> filtered;
+  for (std::size_t k = 0; k < sensors.size(); ++k) {
+    if (gain.share > kGain && gain.steps[k] > kRather) filtered.push_back(sensors[k]);
+  }
+  return filtered;
+}
+
 /// What the law's numbers would change if they were not the same in all dampers: those of all
 /// kinds but the first.
 Linear::Columns columns_of_kinds(const EndedFit& fit, const InPlantSetup& unlike, int threads) {
@@ -128,9 +187,12 @@ FitDoubts doubts_of(const EndedFit& fit, const LeastSquaresProblem& whole, int t
   const std::optional<Linear> at = linear_at(whole, fit.solved.x);
   if (!at) return {};
   FitDoubts doubts;
-  doubts.is_late = gain_by(*at, columns_of_delays(fit, at->residuals, threads), threads) > kLate;
+  doubts.is_late =
+      gain_by(*at, columns_of_delays(fit, at->residuals, threads), threads).share > kLate;
+  doubts.as_if_filtered = sensors_as_if_filtered(fit, *at, threads);
   if (const std::optional<InPlantSetup> unlike = with_unlike_dampers(fit.setup))
-    doubts.are_unlike = gain_by(*at, columns_of_kinds(fit, *unlike, threads), threads) > kUnlike;
+    doubts.are_unlike =
+        gain_by(*at, columns_of_kinds(fit, *unlike, threads), threads).share > kUnlike;
   return doubts;
 }
 

@@ -58,6 +58,8 @@ double delay_of(const SensorFilter& filter) {
   return sum.real();
 }
 
+SensorFilter as_late_as(double delay) { return {delay_of({1, 2}) / delay, 2}; }
+
 double memory_of(const SensorFilter& filter) {
   if (filter.cutoff == 0) return 0;
   constexpr double kLeft = 1e-3;

@@ -18,6 +18,8 @@ inline constexpr int kMostFilterOrder = 8;
 std::complex<double> response_at(const SensorFilter& filter, double w);
 /// How much later a slow signal comes out, s: the delay that it nearly is below its cut-off.
 double delay_of(const SensorFilter& filter);
+/// That of the second order which a slow signal leaves so much later, s.
+SensorFilter as_late_as(double delay);
 /// After so long, s, a thousandth is left of what it held before.
 double memory_of(const SensorFilter& filter);
 

@@ -33,9 +33,9 @@ std::vector<SensorUnknown> sensor_unknowns(const InPlantSetup& setup, double sam
           {SensorUnknown::Of::Delay, s, -kMostDelay * sample_time, kMostDelay * sample_time});
   for (std::size_t s = 0; s < setup.sensors.size(); ++s)
     if (const auto& range = setup.sensors[s].finds_cutoff) {
-      const double highest = std::isinf(range->upper) ? 0 : time_or_cutoff(range->upper);
-      unknowns.push_back({SensorUnknown::Of::Cutoff, s, highest,
-                          time_or_cutoff(lowest_cutoff(*range, sample_time))});
+      unknowns.push_back({SensorUnknown::Of::Cutoff, s, time_or_cutoff(range->upper),
+                          time_or_cutoff(lowest_cutoff(*range, sample_time)),
+                          time_or_cutoff(0.5 / sample_time)});
     }
   return unknowns;
 }
@@ -65,10 +65,10 @@ void put(const SensorUnknown& unknown, double seconds, std::vector<PlantSensor>&
 
 void tell(const SensorUnknown& unknown, FittedParameter& found) {
   if (unknown.of == SensorUnknown::Of::Delay) return;
-  const double longest = found.high, shortest = found.low;
+  const double longest = found.high, shortest = found.value < unknown.shortest ? 0 : found.low;
   found.unit = "Hz";
   found.value = time_or_cutoff(found.value);
-  if (std::isnan(shortest)) return;
+  if (std::isnan(longest)) return;
   found.low = time_or_cutoff(longest);
   found.high = time_or_cutoff(shortest);
 }

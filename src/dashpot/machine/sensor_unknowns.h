@@ -16,6 +16,7 @@ struct SensorUnknown {
   enum class Of { Delay, Cutoff } of = Of::Delay;
   std::size_t sensor = 0;
   double lower = 0, upper = 0;  ///< s
+  double shortest = 0;          ///< s, of a filter: that at half the sample rate
 };
 
 /// Those that the setup asks for, at this sample time: first all delays, up to 20 samples late or
@@ -29,7 +30,8 @@ double start_of(const SensorUnknown& unknown, const InPlantSetup& setup);
 /// Puts what was found, s, in the place of what was unknown.
 void put(const SensorUnknown& unknown, double seconds, std::vector<PlantSensor>& sensors);
 /// Such a number with its interval, s, as people know it: the time of a filter as its cut-off, Hz,
-/// which is infinite where there may be no filter.
+/// whose interval is open where there may be no filter: nothing else than a short delay tells one
+/// above half the sample rate.
 void tell(const SensorUnknown& unknown, FittedParameter& found);
 
 /// The filter of a sensor with the longest memory that it may have at this sample time.
