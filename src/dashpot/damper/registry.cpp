@@ -42,6 +42,10 @@ void list_laws(std::vector<ModelInfo>& models) {
 
 void list_mean(std::vector<ModelInfo>& models) { models.push_back(mean_info()); }
 
+std::unique_ptr<DamperModel> read_mean(const Value& value) {
+  return mean_model_from_json(value, read_model);
+}
+
 template <auto presets>
 void list(std::vector<ModelInfo>& models) {
   for (const auto& preset : presets()) models.push_back(preset.info());
@@ -66,7 +70,7 @@ constexpr std::array kKinds{
     KindRow{ModelKind::PassiveHybrid, list<passive_hybrid_presets>,
             read<passive_hybrid_model_from_json>},
     KindRow{ModelKind::Family, list<family_presets>, read<family_model_from_json>},
-    KindRow{ModelKind::Mean, list_mean, read<mean_model_from_json>},
+    KindRow{ModelKind::Mean, list_mean, read_mean},
 };
 
 const std::vector<ModelInfo>& models() {

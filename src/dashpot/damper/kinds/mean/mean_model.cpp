@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "dashpot/base/text.h"
-#include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -134,14 +133,15 @@ Value MeanModel::to_json() const {
   return Value::object({{"members", std::move(members)}, {"offset", offset_}});
 }
 
-std::unique_ptr<MeanModel> mean_model_from_json(const Value& value) {
+std::unique_ptr<MeanModel> mean_model_from_json(
+    const Value& value, std::unique_ptr<DamperModel> (*read)(ModelKind kind, const Value& value)) {
   ObjectReader reader(value, "a mean of models");
   std::vector<MeanModel::Member> members;
   for (const Value& item : reader.required("members").items()) {
     ObjectReader member(item, "a member of a mean");
     const Value& kind = member.required("kind");
     members.push_back(
-        {read_model(parse_model_kind(kind.as_string(), kind.where()), member.required("model")),
+        {read(parse_model_kind(kind.as_string(), kind.where()), member.required("model")),
          member.number("weight")});
     member.finish();
   }

@@ -54,7 +54,9 @@ class MeanModel final : public DamperModel {
   double offset_;
 };
 
-std::unique_ptr<MeanModel> mean_model_from_json(const Value& value);
+/// read: of a member of that kind, what its to_json() wrote.
+std::unique_ptr<MeanModel> mean_model_from_json(
+    const Value& value, std::unique_ptr<DamperModel> (*read)(ModelKind kind, const Value& value));
 
 ModelInfo mean_info();  ///< what the registry says of it
 
