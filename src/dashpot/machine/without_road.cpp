@@ -56,12 +56,16 @@ void require_tellable(const InPlantSetup& setup, const std::vector<PlantRecordin
     throw Error("plant, parameters",
                 "no mass, stiffness or force is known: motions alone tell only their ratios",
                 "state one of them, the mass of the wheel, say");
-  if (std::ranges::all_of(setup.sensors, [](const PlantSensor& sensor) {
-        return sensor.finds_delay || sensor.finds_cutoff;
-      }))
-    throw Error(where,
-                "all delays and filters are unknown, and nothing that is measured moves the plant",
-                "state those of one sensor: the others are found beside it");
+  if (std::ranges::all_of(setup.sensors, &PlantSensor::finds_delay))
+    throw Error(where, "all delays are unknown, and nothing that is measured moves the plant",
+                "state the delay of one sensor: the others are found beside it");
+  for (const PlantSensor& sensor : setup.sensors)
+    if (sensor.finds_cutoff)
+      throw Error(
+          "plant, " + sensor.channel,
+          "the cut-off of its filter is unknown, and beside a road that nothing measures it "
+          "is not looked for",
+          "the cut-off itself, or 'delay: unknown', which a filter nearly is");
   for (const PlantInputChannel& input : setup.inputs)
     if (input.finds_later)
       throw Error("plant, " + input.channel,
@@ -349,7 +353,7 @@ std::optional<InPlantSetup> with_other_delays_unknown(InPlantSetup setup) {
   bool asks = false;
   for (PlantSensor& sensor : setup.sensors) {
     if (sensor.finds_delay) return {};
-    if (sensor.delay != 0 || sensor.finds_cutoff) continue;
+    if (sensor.delay != 0) continue;
     sensor.finds_delay = stays;
     asks |= stays;
     stays = true;
