@@ -113,6 +113,7 @@ TEST_CASE("in plant: models that cannot stand there are refused with what could"
   };
   CHECK(contains(refused("family_gated", pushed_setup()),
                  "'family_gated' is a model of many dampers, and a plant holds one"));
+  CHECK(contains(refused("mean", pushed_setup()), "is made of models that were fitted to a"));
   CHECK(contains(refused("passive_netwrok", pushed_setup()), "passive_network"));
   InPlantSetup setup = pushed_setup();
   setup.inputs[0].road = RoadPrior{};

@@ -293,7 +293,11 @@ std::vector<std::string> usual_in_plant() {
 void require_model_for_plant(const std::string& model, const InPlantSetup& setup,
                              const std::string& where) {
   if (is_law(model)) return;
-  if (model_info(model, where).kind == ModelKind::Family)
+  const ModelKind kind = model_info(model, where).kind;
+  if (kind == ModelKind::Mean)
+    throw Error(where, "'" + model + "' is made of models that were fitted to a measured force",
+                "a law or a network, as tanh_kwok or passive_network");
+  if (kind == ModelKind::Family)
     throw Error(where, "'" + model + "' is a model of many dampers, and a plant holds one",
                 "a law or a network, as tanh_kwok or passive_network; 'dashpot models' lists them");
   if (unmeasured_road(setup))

@@ -10,14 +10,12 @@
 namespace dashpot {
 namespace {
 
-/// Calls use(member, its part of each state) for one after the other.
-template <class Use, class... State>
-void for_each_part(const std::vector<MeanModel::Member>& members, Use&& use, State... states) {
-  std::size_t at = 0;
+/// Calls use(member, its part of the state) for one after the other.
+template <class State, class Use>
+void for_each_part(const std::vector<MeanModel::Member>& members, State state, Use&& use) {
   for (const MeanModel::Member& member : members) {
-    const std::size_t size = member.model->state_size();
-    use(member, states.subspan(at, size)...);
-    at += size;
+    use(member, state.first(member.model->state_size()));
+    state = state.subspan(member.model->state_size());
   }
 }
 
@@ -67,25 +65,23 @@ std::size_t MeanModel::state_size() const noexcept {
 }
 
 void MeanModel::rest(const DamperInput& input, std::span<double> state) const noexcept {
-  for_each_part(
-      members_, [&](const Member& m, std::span<double> own) { m.model->rest(input, own); }, state);
+  for_each_part(members_, state, [&](const Member& member, std::span<double> own) {
+    member.model->rest(input, own);
+  });
 }
 
 void MeanModel::advance(const DamperInput& from, const DamperInput& to, double dt,
                         std::span<double> state) const noexcept {
-  for_each_part(
-      members_,
-      [&](const Member& m, std::span<double> own) { m.model->advance(from, to, dt, own); }, state);
+  for_each_part(members_, state, [&](const Member& member, std::span<double> own) {
+    member.model->advance(from, to, dt, own);
+  });
 }
 
 double MeanModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
   double force = offset_;
-  for_each_part(
-      members_,
-      [&](const Member& m, std::span<const double> own) {
-        force += m.weight * m.model->force(input, own);
-      },
-      state);
+  for_each_part(members_, state, [&](const Member& member, std::span<const double> own) {
+    force += member.weight * member.model->force(input, own);
+  });
   return force;
 }
 
@@ -96,27 +92,21 @@ bool MeanModel::flows() const noexcept {
 double MeanModel::flow(const DamperInput& input, std::span<const double> state,
                        std::span<double> rates) const noexcept {
   double force = offset_;
-  std::size_t at = 0;
-  for (const Member& member : members_) {
-    const std::size_t size = member.model->state_size();
-    force +=
-        member.weight * member.model->flow(input, state.subspan(at, size), rates.subspan(at, size));
-    at += size;
-  }
+  for_each_part(members_, state, [&](const Member& member, std::span<const double> own) {
+    force += member.weight * member.model->flow(input, own, rates.first(own.size()));
+    rates = rates.subspan(own.size());
+  });
   return force;
 }
 
 double MeanModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
   const double mean = force(input, state) - offset_;
   double square = 0;
-  for_each_part(
-      members_,
-      [&](const Member& m, std::span<const double> own) {
-        const double apart = m.model->force(input, own) - mean;
-        const double within = m.model->spread(input, own);
-        square += m.weight * (apart * apart + within * within);
-      },
-      state);
+  for_each_part(members_, state, [&](const Member& member, std::span<const double> own) {
+    const double apart = member.model->force(input, own) - mean;
+    const double within = member.model->spread(input, own);
+    square += member.weight * (apart * apart + within * within);
+  });
   return std::sqrt(square);
 }
 
