@@ -145,7 +145,7 @@ SpectralLikelihood::SpectralLikelihood(const InPlantSetup& setup,
   lower_.insert(lower_.end(), law.lower().begin(), law.lower().end());
   upper_.insert(upper_.end(), law.upper().begin(), law.upper().end());
 
-  // Delays and times of filters, in samples, then what is uncertain.
+  // What is of the sensors, in samples, then what is uncertain.
   first_of_sensors_ = lower_.size();
   of_sensors_ = sensor_unknowns(setup, sample_time_);
   for (const SensorUnknown& one : of_sensors_) {

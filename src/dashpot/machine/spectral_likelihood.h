@@ -39,12 +39,11 @@ struct RiddenRecording {
 /// as an input it would count as if it did not follow from the road.) The
 /// end terms, polynomials in i w over the plant's denominator (Pintelon and Schoukens, System
 /// Identification, 2012, chapter 6), stand for the states at both ends; they are eliminated.
-/// Delays and filters are exact.
+/// Delays are exact.
 ///
-/// The unknowns: the plant's numbers, each in the size at which it starts; the law's; delays and
-/// times of filters of sensors, in samples; logarithms of what is uncertain and was not stated;
-/// where they are asked for, a spring and a dashpot beside the law. All that it is made from must
-/// outlive it.
+/// The unknowns: the plant's numbers, each in the size at which it starts; the law's; delays of
+/// sensors, in samples; logarithms of what is uncertain and was not stated; where they are asked
+/// for, a spring and a dashpot beside the law. All that it is made from must outlive it.
 class SpectralLikelihood final : public InPlantUnknowns {
  public:
   /// force: half span of the damper's, N, for the limits of the law's error.
