@@ -30,7 +30,7 @@ FitReport brief_fit(const std::string& model, bool allow_active) {
   if (model == "hysteresis_network")
     options.network = {.hidden = {10}, .epochs = 30, .l2 = 1e-4, .members = 2};
   else
-    options.network = {.hidden = {4}, .epochs = 30, .l2 = 1e-6, .members = 1};
+    options.network = {.hidden = {3}, .epochs = 30, .l2 = 2e-7, .members = 1};
   FitReport fit = identify(model, records_of_a_bench(), DriveUnit::Ampere, options);
   REQUIRE(fit.model);
   return fit;
