@@ -67,10 +67,11 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .takes = Takes::File,
        .meaning = model_named,
        .default_text = join(settings.models, ","),
-       .details = "; 'usual' stands for " + join(usual_models(), ", ") + " and their mean" +
+       .details = "; 'usual' stands for " + join(usual_models(), ", ") +
                   " (passive_network_one_sensor where the records have no displacement), as far "
                   "as the time allows; 'all' for every model of one damper that 'dashpot models' "
-                  "lists, 'family' for those of a family of dampers"},
+                  "lists, 'family' for those of a family of dampers; 'mean' beside others for the "
+                  "weighted mean of the best of them"},
       {.names = "--force-offset",
        .target = &settings.force_offset,
        .help = "the force zero (gas, load cell): a free offset per record, or none beside the "

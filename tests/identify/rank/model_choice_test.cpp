@@ -41,11 +41,6 @@ double minutes_of(const std::vector<std::string>& models) {
   return seconds / 60 / 2;
 }
 
-std::vector<std::string> with_mean(std::vector<std::string> models) {
-  models.emplace_back("mean");
-  return models;
-}
-
 }  // namespace
 
 TEST_CASE("a growing budget tries more of the usual models, in their order") {
@@ -55,7 +50,7 @@ TEST_CASE("a growing budget tries more of the usual models, in their order") {
     reached.push_back(model);
     CAPTURE(model);
     const ChosenModels chosen = choose({"usual"}, 1.0001 * minutes_of(reached));
-    CHECK(chosen.names == (reached.size() > 1 ? with_mean(reached) : reached));
+    CHECK(chosen.names == reached);
     CHECK(untried_of(chosen) ==
           std::vector(usual.begin() + static_cast<std::ptrdiff_t>(reached.size()), usual.end()));
     CHECK_CLOSE(chosen.budget->expected_minutes, minutes_of(reached), 0, 1e-9);
@@ -73,8 +68,15 @@ TEST_CASE("the budget that is named for an untried model tries it, and not a who
   CHECK(untried_of(choose({"all"}, last.budget_minutes - 1, dataset)).back() == last.name);
 }
 
+TEST_CASE("a mean that is named beside a group costs nothing") {
+  const ChosenModels chosen =
+      choose({"usual", "mean"}, minutes_of({"bingham", "tanh_kwok"}) * 1.01);
+  CHECK(chosen.names == std::vector<std::string>{"bingham", "tanh_kwok", "mean"});
+  CHECK(minutes_of({"mean"}) == 0);
+}
+
 TEST_CASE("a budget of 0 is no limit, and 'all' has none unless one is stated") {
-  CHECK(choose({"usual"}, 0).names == with_mean(usual_models()));
+  CHECK(choose({"usual"}, 0).names == usual_models());
   CHECK_FALSE(choose({"usual"}, 0).budget);
   const ChosenModels all = choose({"all"}, kNaN);
   CHECK_FALSE(all.budget);

@@ -14,8 +14,7 @@
 namespace dashpot {
 namespace {
 
-constexpr double kCores = 2;                // that a budget is stated for
-constexpr std::string_view kMean = "mean";  // of the other models of a group
+constexpr double kCores = 2;  // that a budget is stated for
 
 /// CPU seconds of one fit of a model: so much whatever the records, so much per thousand samples of
 /// them, up to as many as the fit reads; and of passive networks per million steps of training.
@@ -94,7 +93,6 @@ std::vector<std::string> models_of(const std::string& word, const std::vector<Re
     std::erase_if(names, [&](const std::string& name) {
       return (model_info(name).kind == ModelKind::Family) != (word == "family");
     });
-    if (word == "all") names.emplace_back(kMean);
     return names;
   }
   if (word != "usual") return {word};
@@ -109,7 +107,6 @@ std::vector<std::string> models_of(const std::string& word, const std::vector<Re
   if (!has_displacement(records))
     std::ranges::replace(names, std::string("passive_network"),
                          std::string("passive_network_one_sensor"));
-  names.emplace_back(kMean);
   return names;
 }
 
@@ -220,8 +217,7 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
   std::vector<Candidate> candidates;
   for (const std::string& name : chosen.names) {
     const bool named = std::ranges::find(words.models, name) != words.models.end();
-    const ModelKind kind = model_info(name).kind;
-    if (named || kind == ModelKind::Family || kind == ModelKind::Mean) continue;
+    if (named || model_info(name).kind == ModelKind::Family) continue;
     candidates.push_back({name, expected_seconds(name, divisions, dataset.drive_unit, design),
                           std::ranges::find(usual, name) - usual.begin()});
   }
@@ -230,8 +226,6 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
   });
 
   // Try them up to the first that the budget does not reach.
-  const auto fitted = static_cast<std::size_t>(std::ranges::count_if(
-      chosen.names, [](const std::string& n) { return model_info(n).kind != ModelKind::Mean; }));
   FitBudget budget{.minutes = minutes};
   double spent = 0;  // minutes, with those that stay untried
   for (const Candidate& candidate : candidates) {
@@ -239,7 +233,7 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
     spent += own;
     if (spent <= minutes) {
       budget.expected_minutes = spent;
-    } else if (&candidate == &candidates.front() && fitted == candidates.size()) {
+    } else if (&candidate == &candidates.front() && chosen.names.size() == candidates.size()) {
       // A ranking of nothing helps nobody.
       budget.expected_minutes = spent;
       budget.too_small_for = candidate.name;
@@ -250,10 +244,6 @@ ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const 
     }
   }
   chosen.budget = std::move(budget);
-
-  // One model alone has no mean.
-  const bool is_named = std::ranges::find(words.models, kMean) != words.models.end();
-  if (chosen.names.size() == 2 && !is_named) std::erase(chosen.names, kMean);
   return chosen;
 }
 
