@@ -648,6 +648,10 @@ TEST_CASE("observe: what cannot be is said with what would be right") {
   CHECK(
       contains(message_of([&] { observe(damper, kCarDomain, filtered, {ride.recorded}, options); }),
                "the cut-off of its filter is unknown; its value: 'dashpot identify --in' writes"));
+  InPlantSetup late = ride.setup;
+  late.sensors.back().finds_delay = true;
+  CHECK(contains(message_of([&] { observe(damper, kCarDomain, late, {ride.recorded}, options); }),
+                 "its delay is unknown; its value: 'dashpot identify --in' writes"));
   PlantRecording brief = ride.recorded;
   brief.samples = 20;
   CHECK(contains(message_of([&] { observe(damper, kCarDomain, ride.setup, {brief}, options); }),

@@ -230,6 +230,7 @@ bool varies(const DesignRequest& request, const DescriptionField* field) {
 }
 
 void require_consistent(const DesignRequest& request, const std::string& source, Goals goals) {
+  // Something varies, and something is wanted, of the ride as well where there is one.
   if (request.variables.empty())
     throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
   if (goals == Goals::Required && request.goals.empty())
@@ -240,6 +241,8 @@ void require_consistent(const DesignRequest& request, const std::string& source,
                 "ride: {plant: savaresi_spelta, controller: skyhook}");
   if (goals == Goals::Required && request.ride && !asks_comfort(request))
     throw Error(source, "nothing is asked of the ride", "goals: [{minimise: comfort}]");
+
+  // Every fluid has the law that the damper asks for, and no field is told twice.
   for (const DesignVariable& variable : request.variables)
     for (const std::shared_ptr<const Fluid>& fluid : variable.fluids)
       if (!fluid->law(request.damper.yield_law))

@@ -86,7 +86,10 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
   for (std::size_t k = 0; k < plant.size(); ++k)
     setup.known.emplace_back(setup.unknown[k].name, plant[k]);
   setup.unknown.clear();
-  for (PlantSensor& sensor : setup.sensors) sensor.finds_cutoff.reset();
+  for (PlantSensor& sensor : setup.sensors) {
+    sensor.finds_delay = false;
+    sensor.finds_cutoff.reset();
+  }
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
   const DrivenPlant equations(make_plant(*setup.model, setup.known), inputs);

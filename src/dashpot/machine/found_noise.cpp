@@ -104,6 +104,8 @@ std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantRepo
   std::vector<FoundNoise> found;
   if (!report.has_models()) return found;
   const Plant plant = make_plant(*setup.model, setup.known);
+
+  // Of sensors that state none: what was sought beside all else, or what is left.
   for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
     const PlantSensor& sensor = setup.sensors[s];
     if (sensor.noise > 0) continue;
@@ -115,6 +117,8 @@ std::vector<FoundNoise> found_noise(const InPlantSetup& setup, const InPlantRepo
     found.push_back({sensor.channel, unit_of(sensor.place, plant), noise,
                      noise > 0 ? zero_of(report, sensor.channel, noise) : 0});
   }
+
+  // Of inputs what was sought alone.
   for (const PlantInputChannel& input : setup.inputs)
     if (const double noise = among_nuisances(report, input.channel);
         noise > 0 && input.noise == 0 && !input.road)

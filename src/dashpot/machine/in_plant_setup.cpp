@@ -88,11 +88,13 @@ void require_one_damper(const InPlantSetup& setup, const std::string& who) {
   require_no_follower(setup, who);
 }
 
-void require_known_cutoffs(const InPlantSetup& setup) {
+void require_known_lags(const InPlantSetup& setup) {
   for (const PlantSensor& sensor : setup.sensors)
-    if (sensor.finds_cutoff)
-      throw Error("plant, " + sensor.channel, "the cut-off of its filter is unknown",
-                  "its value: 'dashpot identify --in' writes it into plants/");
+    if (sensor.finds_delay || sensor.finds_cutoff)
+      throw Error(
+          "plant, " + sensor.channel,
+          sensor.finds_delay ? "its delay is unknown" : "the cut-off of its filter is unknown",
+          "its value: 'dashpot identify --in' writes it into plants/");
 }
 
 void require_alike(const InPlantSetup& setup, const std::string& who) {

@@ -153,9 +153,9 @@ void require_units(const InPlantSetup& setup, const PlantRecording& recording);
 /// For what knows a single damper, and no road that follows another one. Throws Error "has 2
 /// dampers, and `who` knows one".
 void require_one_damper(const InPlantSetup& setup, const std::string& who);
-/// For what cannot find the cut-off of a sensor's filter. Throws Error "its filter's cut-off is
+/// For what cannot find a sensor's delay or the cut-off of its filter. Throws Error "its delay is
 /// unknown".
-void require_known_cutoffs(const InPlantSetup& setup);
+void require_known_lags(const InPlantSetup& setup);
 /// For what knows dampers that are all alike. Throws Error "has dampers of 2 kinds, ...".
 void require_alike(const InPlantSetup& setup, const std::string& who);
 /// The dampers of this name: that in a strut, or those of a kind; none where there is none.

@@ -137,6 +137,8 @@ std::vector<std::size_t> sensors_as_if_filtered(const EndedFit& fit, const Linea
         fit.setup.sensors[one.sensor].finds_cutoff ||
         delay < kLateEnough * fit.cases.all.front().driving.sample_time)
       continue;
+
+    // How the residuals change on the way from the delay to a filter as late.
     InPlantSetup filtered = weighed(fit);
     filtered.sensors[one.sensor].filter = as_late_as(delay);
     std::vector<double> x = fit.solved.x;
@@ -152,9 +154,8 @@ std::vector<std::size_t> sensors_as_if_filtered(const EndedFit& fit, const Linea
   // All the way from the delay to the filter is a step of 1.
   const GainByMore gain = gain_by(at, columns, threads);
   std::vector<std::size_t> filtered;
-  for (std::size_t k = 0; k < sensors.size(); ++k) {
+  for (std::size_t k = 0; k < sensors.size(); ++k)
     if (gain.share > kGain && gain.steps[k] > kRather) filtered.push_back(sensors[k]);
-  }
   return filtered;
 }
 

@@ -214,7 +214,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     throw Error("plant, " + setup.unknown.front().name, "is unknown",
                 "its value: 'dashpot identify --in' writes the plant as it was found into "
                 "plants/");
-  require_known_cutoffs(setup);
+  require_known_lags(setup);
   const std::vector<PlantInputChannel> inputs = in_order(setup);
   std::vector<PlantInputPlace> places;
   for (const PlantInputChannel& input : inputs) places.push_back(input.place);

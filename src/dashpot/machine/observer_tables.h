@@ -58,7 +58,7 @@ ObserverScale observer_scale(const ObservedDampers& dampers);
 /// The filter of this plant. Heights of a road that nothing measures follow
 ///   w' = -2 pi n_c V w + 2 pi n0 sqrt(G_d(n0) V) xi,  n_c = 0.01 cycle/m,
 /// whose density is that of ISO 8608 above n_c. There are as many models as the plant has dampers.
-/// Throws Error where numbers of the plant or cut-offs are unknown.
+/// Throws Error where numbers of the plant, delays or cut-offs are unknown.
 ObserverTables observer_tables(const InPlantSetup& setup,
                                const std::vector<std::shared_ptr<const DamperModel>>& dampers,
                                const ObserverNoise& noise, const ObserverScale& scale,

@@ -282,12 +282,16 @@ std::vector<PlantAddition> rides_of(const EndedFit& fit, const Present& present,
                                     const std::vector<NumberOfInterest>& numbers, int threads) {
   const std::size_t n = fit.solved.x.size(), first = fit.residuals.first_state(),
                     end = fit.residuals.first_of_sensors(), shared = n - (end - first);
+
+  // What both recordings tell together.
   const Information now = shared_of(present.information, n, first, end);
   const auto with = [&](const Manoeuvre& manoeuvre) {
     Information sum = information_of(fit, manoeuvre, present.per_sensor, threads);
     if (!sum.empty()) add_to(sum, now, 1);
     return sum;
   };
+
+  // Each manoeuvre against the same ride once more.
   std::vector<PlantAddition> rides;
   const Information alike = with({});
   if (alike.empty()) return rides;

@@ -187,11 +187,7 @@ void require_watchable(const InPlantSetup& setup, const WatchOptions& options) {
   require_once(options.known, "known");
   if (follows("force") && follows("rebound") && follows("compression"))
     throw Error("tracked", "force is the sum of rebound and compression", "leave one of them out");
-  for (const PlantSensor& sensor : setup.sensors)
-    if (sensor.finds_delay)
-      throw Error("plant, " + sensor.channel, "its delay is unknown",
-                  "its value: 'dashpot identify --in' writes it into plants/");
-  require_known_cutoffs(setup);
+  require_known_lags(setup);
 
   // Enough days to learn from, with what explains a day.
   const std::size_t known = 1 + options.known.size() +
@@ -262,6 +258,7 @@ WatchedDay watch_day(const WatchedPlant& watched, const PlantRecording& recordin
 }
 
 std::vector<WatchedQuantity> watched_quantities(const WatchedPlant& watched) {
+  // What wears, in each strut.
   std::vector<WatchedQuantity> quantities;
   const std::vector<std::string> struts = observer_names(watched.setup).struts;
   for (const std::string& strut : struts)
@@ -276,6 +273,8 @@ std::vector<WatchedQuantity> watched_quantities(const WatchedPlant& watched) {
       quantities.push_back(
           {strut + "_" + wear->name, wear->unit, std::move(meaning), quantities.size(), strut});
     }
+
+  // The sensor whose mean is followed.
   for (const PlantSensor& sensor : watched.setup.sensors)
     if (!watched.level.empty() && sensor.channel == watched.level)
       quantities.push_back({watched.level, unit_of(sensor.place.quantity),

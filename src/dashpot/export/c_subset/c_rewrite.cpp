@@ -114,6 +114,7 @@ std::string with_words(std::string_view comment, Replace&& replaced) {
 std::set<std::string_view> defined_names(std::vector<CToken> tokens) {
   std::erase_if(tokens,
                 [](const CToken& t) { return t.kind == Kind::Space || t.kind == Kind::Comment; });
+
   std::set<std::string_view> names;
   int depth = 0;
   bool enumerates = false;
@@ -124,10 +125,14 @@ std::set<std::string_view> defined_names(std::vector<CToken> tokens) {
       if (token.is("define")) names.insert(next.text);
       continue;
     }
+
+    // Within how many brackets it stands, and whether in those of an enumeration.
     if (token.is("enum")) enumerates = true;
     if (token.is("{") || token.is("(") || token.is("[")) ++depth;
     if (token.is("}") || token.is(")") || token.is("]")) --depth;
     if (token.is("}")) enumerates = false;
+
+    // A name of its own.
     if (token.kind != Kind::Word) continue;
     const bool ends = next.is("(") || next.is("[") || next.is("=") || next.is(";") || next.is("{");
     if ((depth == 0 && ends) || (depth == 1 && enumerates)) names.insert(token.text);

@@ -140,6 +140,9 @@ const std::vector<std::string>& usual_models() {
 
 double expected_seconds(const std::string& model, const Divisions& divisions, DriveUnit drive_unit,
                         const NetworkDesign& design) {
+  // A mean is made of fits that are there.
+  if (model_info(model).kind == ModelKind::Mean) return 0;
+
   // A passive hybrid is its network, half of whose trials are made once more, and its law, fitted
   // once and for each of some six trials.
   if (const ModelInfo& info = model_info(model); info.kind == ModelKind::PassiveHybrid) {
@@ -153,7 +156,6 @@ double expected_seconds(const std::string& model, const Divisions& divisions, Dr
   constexpr double kThousand = 1000;
   const FitCost cost = cost_of(model);
   double seconds = 0;
-  if (model_info(model).kind == ModelKind::Mean) return seconds;
   for (const std::vector<Record>* training : fits_of(divisions)) {
     double samples = 0;
     for (const Record& record : *training) samples += static_cast<double>(record.size());
