@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant_words.h"
@@ -648,6 +649,12 @@ TEST_CASE("observe: what cannot be is said with what would be right") {
   CHECK(
       contains(message_of([&] { observe(damper, kCarDomain, filtered, {ride.recorded}, options); }),
                "the cut-off of its filter is unknown; its value: 'dashpot identify --in' writes"));
+  const auto spencer = std::make_shared<LawModel>(load_parameters("spencer1997"));
+  const auto mean =
+      std::make_shared<MeanModel>(std::vector<MeanModel::Member>(8, {spencer, 0.125}));
+  CHECK(contains(
+      message_of([&] { observe(mean, kCarDomain, ride.setup, {ride.recorded}, options); }),
+      "mean: has 24 states, and a filter follows 12; a law of the same damper, as tanh_kwok"));
   InPlantSetup late = ride.setup;
   late.sensors.back().finds_delay = true;
   CHECK(contains(message_of([&] { observe(damper, kCarDomain, late, {ride.recorded}, options); }),

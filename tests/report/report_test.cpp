@@ -5,6 +5,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/inspection.h"
 #include "dashpot/report/quantity.h"
@@ -264,6 +265,27 @@ TEST_CASE("parameter table: value, interval, unit, remark") {
   CHECK(contains(table, "N*s/m"));
   CHECK(contains(table, "weakly determined"));
   CHECK(contains(table, "fixed"));
+}
+
+TEST_CASE("a mean says what it is made of, and a terminal the numbers of its best member") {
+  ExampleRanking example = example_ranking(300);
+  std::vector<RankedModel>& models = example.ranking.models;
+  RankedModel mean = models[0];
+  mean.name = "mean";
+  mean.fit.parameters.clear();
+  mean.fit.model = std::make_shared<MeanModel>(
+      std::vector<MeanModel::Member>{{models[1].fit.model, 0.25}, {models[0].fit.model, 0.75}});
+  models.insert(models.begin(), std::move(mean));
+
+  const Document document = ranking_document(example.input());
+  const std::string text = document_text(document, 160), page = markdown_document(document);
+  CHECK(contains(text, "modified_bouc_wen    0.75\n"));
+  CHECK(contains(page, "| tanh\\_kwok | 0.25 |"));
+  CHECK(contains(text, "Parameters of Modified Bouc-Wen (Spencer), with 95 % intervals"));
+  CHECK(!contains(text, "Parameters of Hyperbolic tangent"));
+  const auto first = page.find("Parameters of Modified");
+  REQUIRE(first != std::string::npos);
+  CHECK(page.find("Parameters of Modified", first + 1) == std::string::npos);
 }
 
 TEST_CASE("Markdown and CSV hold the same figures") {

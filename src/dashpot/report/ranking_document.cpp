@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/identify/judge/left_inertia.h"
 #include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/provenance.h"
@@ -185,6 +186,34 @@ std::vector<std::string> warnings_of(const RankedModel& model,
   return lines;
 }
 
+DocumentTable numbers_table(const RankedModel& model, When when) {
+  DocumentTable table = parameter_table(model.fit);
+  table.title = "Parameters of " + display_name(model) + ", with 95 % intervals";
+  table.when = std::move(when);
+  return table;
+}
+
+/// What a mean is made of, and on a terminal, which shows the first model alone, the numbers of the
+/// best of its members that has some.
+void add_members(const Ranking& ranking, const MeanModel& mean, const When& here,
+                 DocumentSection& section) {
+  DocumentTable members{"Members of the mean", {{"Model"}, {"Weight", true}}, {}};
+  members.when = here;
+  std::vector<std::string> names;
+  for (const MeanModel::Member& member : mean.members()) {
+    names.push_back(member.model->name());
+    members.rows.push_back({names.back(), number_text(member.weight)});
+  }
+  section.tables.push_back(std::move(members));
+
+  const auto best = std::ranges::find_if(ranking.models, [&](const RankedModel& model) {
+    return !model.fit.parameters.empty() && std::ranges::find(names, model.name) != names.end();
+  });
+  if (best == ranking.models.end()) return;
+  section.tables.push_back(numbers_table(*best, here));
+  section.tables.back().audience = Audience::Terminal;
+}
+
 /// The final fit of each model, and its errors record by record; the latter alone of a model that
 /// was fitted elsewhere.
 DocumentSection fitted_section(const Ranking& ranking) {
@@ -200,10 +229,9 @@ DocumentSection fitted_section(const Ranking& ranking) {
     const RankedModel& model = ranking.models[m];
     const When here{{"model", {m}}};
     if (!model.fit.parameters.empty()) {
-      section.tables.push_back(parameter_table(model.fit));
-      section.tables.back().title =
-          "Parameters of " + display_name(model) + ", with 95 % intervals";
-      section.tables.back().when = here;
+      section.tables.push_back(numbers_table(model, here));
+    } else if (const auto* mean = dynamic_cast<const MeanModel*>(model.fit.model.get())) {
+      add_members(ranking, *mean, here, section);
     } else if (model.fit.model && !ranking.seen) {
       section.lists.push_back({.title = {},
                                .lines = {display_name(model) + " is fitted as a whole: " +

@@ -95,10 +95,16 @@ PlantObserver::PlantObserver(ObserverTables tables,
                              std::vector<std::shared_ptr<const DamperModel>> dampers)
     : tables_(std::move(tables)), dampers_(std::move(dampers)) {
   // What a filter can follow.
-  for (const auto& damper : dampers_)
+  for (const auto& damper : dampers_) {
     if (!damper->flows())
       throw Error(damper->name(), "its states have no rates: a filter cannot follow them",
                   "a law, a hybrid, or a network without a feedback of its force");
+    if (damper->state_size() > kMostObservedDamper)
+      throw Error(damper->name(),
+                  "has " + std::to_string(damper->state_size()) + " states, and a filter follows " +
+                      std::to_string(kMostObservedDamper),
+                  "a law of the same damper, as tanh_kwok or bouc_wen");
+  }
 
   // What the arrays of the filter have room for.
   const auto require = [](std::size_t count, std::size_t most, const std::string& what) {
@@ -109,8 +115,6 @@ PlantObserver::PlantObserver(ObserverTables tables,
   require(tables_.all(), kMostObserved,
           "numbers to estimate (of plant, dampers and sensors' offsets)");
   require(dampers_.size(), kMostObservedDampers, "dampers");
-  for (const auto& damper : dampers_)
-    require(damper->state_size(), kMostObservedDamper, "numbers of a damper's state");
   require(static_cast<std::size_t>(tables_.sensors), kMostObservedSensors, "sensors");
   require(static_cast<std::size_t>(tables_.inputs), kMostObservedInputs, "inputs");
 }
