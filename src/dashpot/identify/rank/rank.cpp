@@ -132,8 +132,13 @@ Value numbers_json(const FitReport& fit) {
                         {"covariance", std::move(covariance)}});
 }
 
-/// What is wrong with a model that does not forget.
+/// What is to be known of a model that does not forget, or slowly; nothing of others.
 std::string forgetting_warning(const Forgetting& result) {
+  if (result.is_forgotten() && result.seconds <= kForgettingSeconds) return {};
+  if (result.is_forgotten())
+    return "it is slow to forget how it began: from another state its force comes within " +
+           format_number(100 * kForgottenShare, 2) + " % of the span only after " +
+           format_number(result.seconds, 2) + " s";
   const std::string left = std::isfinite(result.share_left)
                                ? "runs from different states still differ by " +
                                      format_number(100 * result.share_left, 2) +
@@ -376,8 +381,8 @@ class RankingRun {
     ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
     ranked.forgetting = forgetting(*ranked.fit.model, training_, dataset_.drive_unit, force_span_,
                                    options_.threads);
-    if (!ranked.forgetting.is_forgotten())
-      ranked.fit.warnings.push_back(forgetting_warning(ranked.forgetting));
+    if (std::string remembered = forgetting_warning(ranked.forgetting); !remembered.empty())
+      ranked.fit.warnings.push_back(std::move(remembered));
     ranked.dissipation = dissipation(*ranked.fit.model, domain_, options_.threads);
     if (!ranked.dissipation.dissipates())
       ranked.fit.warnings.push_back(activity(ranked.dissipation, dataset_.drive_unit) +
