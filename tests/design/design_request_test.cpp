@@ -85,6 +85,24 @@ TEST_CASE("design request: what is wrong is named") {
   says(request("gap: {from: 1 mm, to: 2 mm}",
                "goals: [{minimise: mass}]\nconstraints: [{quantity: force, min: 2 kN, max: 1 kN}]"),
        "min above its max");
+  for (const auto& [bound, part] :
+       {std::pair{
+            "velocity: -0.3 m/s, max: 2 kN",
+            "force is negative at -0.3 m/s, so that every damper holds this; a negative bound, "
+            "as min: -2000 N"},
+        {"velocity: -0.3 m/s, min: 2 kN",
+         "no damper holds this; a negative bound, as max: -2000 N"},
+        {"velocity: 0.3 m/s, max: -2 kN",
+         "no damper holds this; a positive bound, as min: 2000 N"}})
+    says(request("gap: {from: 1 mm, to: 2 mm}",
+                 "goals: [{minimise: mass}]\nconstraints: "
+                 "[{quantity: force, " +
+                     std::string(bound) + "}]"),
+         part);
+  CHECK(refusal(request("gap: {from: 1 mm, to: 2 mm}",
+                        "goals: [{minimise: mass}]\nconstraints: [{quantity: force, velocity: "
+                        "-0.3 m/s, min: -2 kN}]"))
+            .empty());
   says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nrobust: {share: 0.9}"),
        "robust against nothing");
   says(request("gap: {from: 1 mm, to: 2 mm}",

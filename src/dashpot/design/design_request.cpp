@@ -114,6 +114,23 @@ void require_telling(const DesignQuantity& quantity, const DamperOperation& at,
                 "a current, as " + example);
 }
 
+/// Throws Error where a force is bounded on the side where it never is about the middle of the
+/// stroke: every damper would hold that, or none.
+void require_side(const DesignConstraint& constraint, const std::string& where) {
+  const double velocity = constraint.at.velocity;
+  if (!constraint.quantity->is_signed() || constraint.at.displacement != 0 ||
+      velocity * constraint.bound >= 0)
+    return;
+  const bool always = constraint.at_least == (velocity > 0);
+  const std::string side = velocity > 0 ? "positive" : "negative";
+  throw Error(where,
+              std::string(constraint.quantity->name) + " is " + side + " at " +
+                  format_number(velocity) + " m/s, so that " + (always ? "every" : "no") +
+                  " damper holds this",
+              "a " + side + " bound, as " + (constraint.at_least ? "max" : "min") + ": " +
+                  format_number(-constraint.bound) + " N");
+}
+
 void read_constraint(const Value& value, const DamperOperation& at, DesignRequest& request) {
   // The quantity, where it is asked, its bounds, and the models that are asked.
   ObjectReader reader(value, "a constraint");
@@ -133,6 +150,7 @@ void read_constraint(const Value& value, const DamperOperation& at, DesignReques
       constraint.by = by;
       constraint.at_least = bound == least;
       constraint.bound = read_quantity(*bound, constraint.quantity->unit);
+      require_side(constraint, bound->where());
       request.constraints.push_back(constraint);
     }
 

@@ -220,6 +220,8 @@ bool DesignQuantity::is_of_force() const {
          estimate == controllable_force || estimate == response_time;
 }
 
+bool DesignQuantity::is_signed() const { return physics == &P::force || physics == &P::off_force; }
+
 bool DesignQuantity::has_band() const { return is_of_force() && estimate != response_time; }
 
 bool DesignQuantity::needs_flow() const {

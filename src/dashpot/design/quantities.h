@@ -30,6 +30,8 @@ struct DesignQuantity {
   double of(const OperatedDamper& damper) const;
   /// Whether it is made of forces, in which models differ.
   bool is_of_force() const;
+  /// Whether it has the sign of the velocity.
+  bool is_signed() const;
   /// Whether a band of the forces makes one of it: of those figures all but times.
   bool has_band() const;
   /// Whether it says nothing at rest, where nothing flows.
