@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 
 namespace dashpot::cli {
@@ -71,15 +72,8 @@ std::string chosen_word(const std::string& word, const Option& option) {
 
 /// Throws UsageError where a list gives one name two values, of which one would count for nothing.
 void require_one_value_each(const std::vector<std::string>& words, const Option& option) {
-  std::vector<std::string> names;
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    if (equals == std::string::npos) continue;
-    const std::string name = word.substr(0, equals);
-    if (std::ranges::find(names, name) != names.end())
-      throw UsageError(option.long_name(), name + " is stated twice", "one value of each name");
-    names.push_back(name);
-  }
+  if (const auto twice = stated_twice(words))
+    throw UsageError(option.long_name(), *twice + " is stated twice", "one value of each name");
 }
 
 /// Writes the words given for one option to its variable.

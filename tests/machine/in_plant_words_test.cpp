@@ -155,6 +155,8 @@ TEST_CASE("a plant in words: known, unknown, ranges, places and levels") {
   CHECK(contains(wrong("oscillator,mas=1"), "unknown key 'mas'; did you mean 'mass'"));
   CHECK(contains(wrong("oscillator,force=u,displacement=x"), "says nothing of mass"));
   CHECK(contains(wrong("oscillator,mass=1,displacement=x"), "no input is stated"));
+  CHECK(contains(wrong("oscillator,mass=1,skip=1,force=u,displacement=x,skip=2"),
+                 "--in, skip: is stated twice"));
   CHECK(contains(wrong("nowhere.yaml"), "there is no such file"));
 }
 

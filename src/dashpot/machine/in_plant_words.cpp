@@ -10,6 +10,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
@@ -320,6 +321,16 @@ std::pair<std::string, std::string> channel_and_place(const std::string& text) {
   return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
 }
 
+/// Channels may share a quantity; what is said of the recordings counts once.
+void require_said_once(std::vector<std::string> parts, const std::string& where) {
+  std::erase_if(parts, [](const std::string& part) {
+    const std::string key(trim(part.substr(0, part.find('='))));
+    return key != "held_back" && key != "skip" && key != "start";
+  });
+  if (const auto twice = stated_twice(parts))
+    throw Error(where + ", " + *twice, "is stated twice", "once");
+}
+
 InPlantSetup from_words(const std::string& words) {
   const std::string where = "--in";
   std::vector<std::string> parts = split(words, ',');
@@ -327,6 +338,7 @@ InPlantSetup from_words(const std::string& words) {
   setup.model = &find_machine(std::string(trim(parts.front())), where);
   std::vector<std::pair<std::string, std::string>> channels;
   std::vector<NamedDrive> drives;
+  require_said_once(parts, where);
 
   // The plant's numbers first: they say which coordinates it has.
   for (std::size_t k = 1; k < parts.size(); ++k) {

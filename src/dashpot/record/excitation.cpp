@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
@@ -33,8 +34,8 @@ const Sequence& find_sequence(std::span<const Sequence> sequences, std::string_v
 template <class Sequence>
 Chosen<Sequence> choose(std::span<const Sequence> sequences, const std::string& text,
                         const std::string& where) {
-  const std::vector<std::string> parts = split(text, ',');
-  const Sequence& sequence = find_sequence(sequences, trim(parts.front()), where);
+  const std::vector<std::string> parts = split_words(text, where);
+  const Sequence& sequence = find_sequence(sequences, parts.front(), where);
   return {sequence, parse_values(sequence.info.params, std::span(parts).subspan(1),
                                  sequence.info.name, where)};
 }

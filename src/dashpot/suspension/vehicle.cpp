@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/registry.h"
@@ -202,8 +203,9 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
     if (words.inverse.empty())
       throw Error(words.where,
                   "a force loop needs an inverse, which turns its force into a current", "numeric");
-    const std::vector<double> gains = parse_values(
-        force_loop_settings(), split(words.force_loop, ','), "the force loop", words.where);
+    const std::vector<double> gains =
+        parse_values(force_loop_settings(), split_words(words.force_loop, words.where),
+                     "the force loop", words.where);
     mounted.loop = {gains[0], gains[1], gains[2]};
   }
 

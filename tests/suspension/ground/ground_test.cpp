@@ -286,6 +286,10 @@ TEST_CASE("ground that cannot be made is refused, with what would be right") {
   CHECK(refusal("iso8608,class=Z").find("A (smooth) to H") != std::string::npos);
   CHECK(refusal("iso8608,speed=3kg").find("not a unit of it") != std::string::npos);
   CHECK(refusal("step,hight=3cm").find("did you mean 'height'") != std::string::npos);
+  CHECK(refusal("iso8608,class=A,class=E").find("class is stated twice") != std::string::npos);
+  CHECK(refusal("iso8608,class=A,roughness=1e-6").find("one of the two") != std::string::npos);
+  CHECK(refusal("measured,file=a.csv,file=b.csv").find("file is stated twice") !=
+        std::string::npos);
   CHECK(refusal("own/road.csv,speed=10").find("measured,file=own/road.csv") != std::string::npos);
   const TemporaryFolder folder;
   write_file(folder.path() / "road.csv", "s (m),z (m),q\n0,0,0\n1,0,0\n2,0,0\n");

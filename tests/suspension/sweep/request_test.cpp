@@ -58,13 +58,26 @@ TEST_CASE("a request's words become vehicles and roads") {
   const VehicleWords passive = vehicle_words(request, 0, draw),
                      mix1 = vehicle_words(request, 1, draw);
   CHECK(passive.values == std::vector<std::string>{"sprung_mass=350"});
-  CHECK(passive.dampers.front() == "viscous,damping=1500,damping=1200");
+  CHECK(passive.dampers.front() == "viscous,damping=1200");
   CHECK(mix1.dampers.front() == "ideal,damping_min=300,damping_max=3900");
-  CHECK(mix1.controller == "mix1,crossover=1.9Hz,crossover=2.5");
+  CHECK(mix1.controller == "mix1,crossover=2.5");
   CHECK(mix1.sensors.in_car);
   CHECK(mix1.sensors.delay == 0.002);
-  CHECK(road_words(request, draw) == "iso8608_fft,class=C,class=B,speed=20,length=630");
+  CHECK(road_words(request, draw) == "iso8608_fft,class=B,speed=20,length=630");
   CHECK(make_vehicle(mix1).set.plant.mass[0] == 350);
+}
+
+TEST_CASE(
+    "a class that is drawn takes the place of the road's roughness, and the other way round") {
+  const auto road = [](const std::string& stated, const std::string& varied) {
+    SweepRequest request = parsed("vary:\n  " + varied + "\n");
+    request.road = stated;
+    return road_words(request, draw_vehicle(request, 0));
+  };
+  CHECK(road("iso8608_fft,roughness=1e-5,length=50", "road.class: [B]") ==
+        "iso8608_fft,length=50,class=B");
+  CHECK(road("iso8608_fft,class=C,length=50", "road.roughness: [1e-5]") ==
+        "iso8608_fft,length=50,roughness=1e-05");
 }
 
 TEST_CASE("the force of a model file scatters as it is built, and so does the lag of its coil") {

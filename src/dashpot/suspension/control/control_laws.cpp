@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/controller.h"
 #include "dashpot/error.h"
@@ -132,11 +133,11 @@ const ControlLaw& find_control_law(std::string_view name, const std::string& whe
 ControllerPointer make_controller(const std::string& text, const ControlContext& context,
                                   const std::string& where) {
   require_limits(context.limits, where);
-  const std::vector<std::string> parts = split(text, ',');
-  if (trim(parts.front()).starts_with(kSelector)) return make_selector(parts, context, where);
-  const ControlLaw& law = find_control_law(trim(parts.front()), where);
+  const std::vector<std::string> parts = split_words(text, where);
+  if (parts.front().starts_with(kSelector)) return make_selector(parts, context, where);
+  const ControlLaw& law = find_control_law(parts.front(), where);
   for (std::size_t k = 1; k < parts.size(); ++k)
-    if (std::ranges::find(kControlLaws, trim(parts[k]), &ControlLaw::name) !=
+    if (std::ranges::find(kControlLaws, parts[k], &ControlLaw::name) !=
         std::ranges::end(kControlLaws))
       throw Error(where, "'" + parts[k] + "' is another controller, and a comma begins a setting",
                   "one controller; where several are taken, ';' between them");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/inverse/observer.h"
@@ -246,9 +247,7 @@ std::span<const SimpleDamper> simple_dampers() { return kSimple; }
 std::span<const ParameterRow> mounting_settings() { return kMounting; }
 
 ChosenDamper choose_damper(const std::string& text, const std::string& where) {
-  std::vector<std::string> parts = split(text, ',');
-  for (std::string& part : parts) part = trim(part);
-
+  std::vector<std::string> parts = split_words(text, where);
   const auto mounting = take_mounting(parts, where);
   if (parts.empty()) throw Error(where, "'" + text + "' names no damper");
 

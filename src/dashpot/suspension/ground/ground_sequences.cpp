@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/suspension/ground/deterministic.h"
@@ -184,12 +185,14 @@ const GroundSequence& find_ground_sequence(std::string_view name, const std::str
 }
 
 GroundPointer make_ground(const std::string& text, std::uint64_t seed, const std::string& where) {
-  std::vector<std::string> parts = split(text, ',');
+  std::vector<std::string> parts = split_words(text, where);
   for (const RecordedGround& kind : recorded_grounds())
-    if (kind.name == trim(parts.front()))
+    if (kind.name == parts.front())
       return make_recorded_ground(kind, std::span(parts).subspan(1), where);
-  const GroundSequence& sequence = find_ground_sequence(trim(parts.front()), where);
+  const GroundSequence& sequence = find_ground_sequence(parts.front(), where);
   for (std::string& part : parts) part = without_class(part);
+  if (stated_twice(parts))
+    throw Error(where, "class stands beside roughness, which it stands for", "one of the two");
   return sequence.make(
       parse_values(sequence.info.params, std::span(parts).subspan(1), sequence.info.name, where),
       seed);

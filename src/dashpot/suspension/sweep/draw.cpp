@@ -5,6 +5,7 @@
 #include <boost/random/sobol.hpp>
 
 #include "dashpot/base/random.h"
+#include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
@@ -53,8 +54,11 @@ std::vector<double> drawn_shares(const SweepRequest& request, std::size_t sample
   return shares;
 }
 
-std::string setting(const std::string& parameter, double value) {
-  return parameter + '=' + format_exact(value);
+/// The road with this setting in place of its own, where a class is a roughness.
+std::string with_road_setting(std::string road, const std::string& name, const std::string& value) {
+  if (name == "class") road = without_setting(road, "roughness");
+  if (name == "roughness") road = without_setting(road, "class");
+  return with_setting(road, name, value);
 }
 
 /// Makes a random road without a stated length as long as the ride, for the last axle too.
@@ -63,7 +67,7 @@ std::string with_length(const std::string& road, const SweepRequest& request) {
   const std::string name = first_word(road);
   if (!name.starts_with("iso8608") && name != "filtered_noise") return road;
 
-  // The speed that the words give last, else that of the road's table.
+  // The speed that the words give, else that of the road's table.
   const SequenceInfo& info = find_ground_sequence(name).info;
   double speed = info.params[row_named(info.params, "speed", name, request.source)].value;
   for (const std::string& part : split(road, ',')) {
@@ -72,7 +76,7 @@ std::string with_length(const std::string& road, const SweepRequest& request) {
     if (key == "length") return road;
     if (key == "speed") speed = parse_quantity(part.substr(equals + 1), "m/s", request.source);
   }
-  return road + ',' + setting("length", speed * request.duration + kLongestVehicle);
+  return with_setting(road, "length", format_exact(speed * request.duration + kLongestVehicle));
 }
 
 }  // namespace
@@ -107,18 +111,19 @@ VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller,
   for (std::size_t k = 0; k < request.inputs.size(); ++k) {
     const SweepInput& input = request.inputs[k];
 
-    // Settings are appended to the words that they belong to.
-    const std::string now = setting(input.parameter, draw.values[k]);
+    // What is drawn takes the place of what the words state of it.
+    const std::string now = format_exact(draw.values[k]);
     switch (input.target) {
       case Target::Plant:
-        words.values.push_back(now);
+        words.values.push_back(input.parameter + '=' + now);
         break;
-      case Target::Damper:  // the last setting of a name counts
+      case Target::Damper:
         for (std::string& damper : words.dampers)
-          if (input.applies_to(damper)) damper += ',' + now;
+          if (input.applies_to(damper)) damper = with_setting(damper, input.parameter, now);
         break;
       case Target::Controller:
-        if (input.controller == controller) words.controller += ',' + now;
+        if (input.controller == controller)
+          words.controller = with_setting(words.controller, input.parameter, now);
         break;
       case Target::Current:
         words.current = draw.values[k];
@@ -140,8 +145,10 @@ std::string road_words(const SweepRequest& request, const SweepDraw& draw) {
   std::string road = request.road;
   for (std::size_t k = 0; k < request.inputs.size(); ++k) {
     const SweepInput& input = request.inputs[k];
-    if (input.target == Target::Road) road += ',' + setting(input.parameter, draw.values[k]);
-    if (input.target == Target::RoadClass) road += ",class=" + input.text_of(draw.values[k]);
+    if (input.target == Target::Road)
+      road = with_road_setting(road, input.parameter, format_exact(draw.values[k]));
+    if (input.target == Target::RoadClass)
+      road = with_road_setting(road, "class", input.text_of(draw.values[k]));
   }
   return with_length(road, request);
 }
