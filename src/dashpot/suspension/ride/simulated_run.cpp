@@ -51,6 +51,11 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                    .warnings = {},
                    .notes = {}};
 
+  if (run.trace.record.size() < 2 && !run.trace.diverged_at)
+    throw Error(
+        "simulation",
+        "a duration of " + format_number(options.duration) + " s holds no sample but the first",
+        "some seconds");
   run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
   run.warnings = vehicle->warnings;
   run.warnings.insert(run.warnings.end(), run.trace.warnings.begin(), run.trace.warnings.end());
