@@ -30,10 +30,14 @@ Stretch shown_stretch(double duration, double discard) {
 
 FigureSeries over_time(const SimulatedRun& run, const std::string& channel, double factor,
                        const Stretch& stretch, const FigureSeries& look) {
+  const Record& trace = run.trace.record;
+  return over_time(trace.time, trace.channel(channel).samples, factor, stretch, look);
+}
+
+FigureSeries over_time(const std::vector<double>& time, const std::vector<double>& samples,
+                       double factor, const Stretch& stretch, const FigureSeries& look) {
   constexpr std::size_t kPoints = 3000;
   FigureSeries series = look;
-  const std::vector<double>&time = run.trace.record.time,
-        &samples = run.trace.record.channel(channel).samples;
   const auto place = [&](double t) {
     return static_cast<std::size_t>(std::ranges::lower_bound(time, t - 1e-9) - time.begin());
   };

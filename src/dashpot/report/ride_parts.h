@@ -23,6 +23,9 @@ Stretch shown_stretch(double duration, double discard);
 /// A channel over time, thinned to what a screen can show; `factor` as the axis has it.
 FigureSeries over_time(const SimulatedRun& run, const std::string& channel, double factor,
                        const Stretch& stretch, const FigureSeries& look);
+/// The same of samples at these times, s.
+FigureSeries over_time(const std::vector<double>& time, const std::vector<double>& samples,
+                       double factor, const Stretch& stretch, const FigureSeries& look);
 
 /// "0.97"; "-" where there is no ratio.
 std::string ratio_text(double value, double reference);

@@ -189,10 +189,12 @@ class Simulation {
     const double stopped = stops_met(trace.record, plant, static_cast<std::size_t>(first));
 
     // Warnings.
+    const std::string foot = foot_of(plant);
     if (trace.contact_lost > 0)
-      trace.warnings.push_back((plant.tyres_may_lift
-                                    ? "a tyre has no contact in "
-                                    : "a tyre pulls at the road, which none can, in ") +
+      trace.warnings.push_back("a " + foot +
+                               (plant.tyres_may_lift ? " has no contact in "
+                                : foot == "tyre"     ? " pulls at the road, which none can, in "
+                                                     : " pulls, which none can, in ") +
                                share(trace.contact_lost));
     if (stopped > 0)
       trace.warnings.push_back("a stop is met in " + share(stopped) +

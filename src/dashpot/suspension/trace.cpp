@@ -132,4 +132,10 @@ void TraceWriter::write(const PlantState& state, std::span<const FootMotion> roa
   ++row_;
 }
 
+std::string foot_of(const Plant& plant) {
+  const bool on_tyres = std::ranges::all_of(
+      plant.tyres, [](const Tyre& tyre) { return tyre.name.ends_with("tyre"); });
+  return on_tyres ? "tyre" : plant.tyres.front().name;
+}
+
 }  // namespace dashpot

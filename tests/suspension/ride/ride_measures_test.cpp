@@ -1,5 +1,7 @@
 #include "dashpot/suspension/ride/ride_measures.h"
 
+#include <algorithm>
+
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/simulated_run.h"
 #include "support.h"
@@ -30,6 +32,18 @@ TEST_CASE("measures of a step: TC-3.6 and TC-10.2") {
   CHECK_CLOSE(value(run, "tyre_deviation"), 30, 1e-9, 0);
   CHECK_CLOSE(value(run, "body_acceleration"), 0.705644, 2e-4, 0);
   CHECK(std::isnan(value(run, "current")));  // nothing drives it
+}
+
+TEST_CASE("what a seat does is told of the seat, not of a tyre") {
+  const SimulatedRun run =
+      run_of({.plant = "boileau_rakheja1998", .dampers = {"viscous"}}, "iso8608_fft,length=50", 2);
+  const auto title = [&](const char* name) {
+    return std::ranges::find(run.measures, name, &RideMeasure::name)->title;
+  };
+  CHECK(title("tyre_load") == "dynamic over static seat load, rms");
+  CHECK(title("contact_lost") == "seat without load, of the time");
+  REQUIRE(!run.trace.warnings.empty());
+  CHECK(run.trace.warnings.front().starts_with("a seat pulls, which none can, in "));
 }
 
 TEST_CASE("what has not settled by the end of a run has no time of settling") {

@@ -96,10 +96,11 @@ class Reading {
       deflection = std::max(deflection, greatest(samples(tyre.name + "_deflection")));
     }
 
-    add("tyre_load", "dynamic over static tyre load, rms", "%", 100 * load);
-    add("tyre_load_peak", "dynamic over static tyre load, greatest", "%", 100 * peak);
-    add("tyre_deflection", "tyre deflection, greatest", "mm", 1000 * deflection);
-    add("contact_lost", "tyre without load, of the time", "%",
+    const std::string foot = foot_of(vehicle_.set.plant);
+    add("tyre_load", "dynamic over static " + foot + " load, rms", "%", 100 * load);
+    add("tyre_load_peak", "dynamic over static " + foot + " load, greatest", "%", 100 * peak);
+    add("tyre_deflection", foot + " deflection, greatest", "mm", 1000 * deflection);
+    add("contact_lost", foot + " without load, of the time", "%",
         100 * contact_lost(trace_.record, vehicle_.set.plant, first_));
   }
 
@@ -161,8 +162,9 @@ class Reading {
     const Samples tyre = since(vehicle_.set.plant.tyres.front().name + "_deflection");
     if (!(height > 0)) return;
     const StepMeasures step = step_measures(tyre, dt_, 0, kBand * height);
-    add("tyre_settling", "tyre, settled to 5 % of the step", "s", settled(step, tyre.size()));
-    add("tyre_deviation", "tyre deflection after the step, greatest", "mm",
+    const std::string foot = foot_of(vehicle_.set.plant);
+    add("tyre_settling", foot + ", settled to 5 % of the step", "s", settled(step, tyre.size()));
+    add("tyre_deviation", foot + " deflection after the step, greatest", "mm",
         1000 * std::abs(step.greatest_deviation));
   }
 
