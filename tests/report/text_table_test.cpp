@@ -26,6 +26,20 @@ TEST_CASE("a table that is too wide shortens names, then leaves out the least im
         "abcdefghijklmnopqr..  1    3\n");
 }
 
+TEST_CASE("a long title stands on several lines before anything is shortened or left out") {
+  const std::vector<TextColumn> columns{
+      {"Measure", false, 0, true}, {"with a passive damper", true}, {"ratio", true, 1}};
+  const std::vector<std::vector<std::string>> rows{{"greatest drift, floor 1", "5.486", "0.144"}};
+  CHECK(text_table(columns, rows, 43) ==
+        "                              with a\n"
+        "                             passive\n"
+        "Measure                       damper  ratio\n"
+        "-------------------------------------------\n"
+        "greatest drift, floor 1        5.486  0.144\n");
+  CHECK(columns_without_room(columns, rows, 43).empty());
+  CHECK(columns_without_room(columns, rows, 30) == std::vector<std::string>{"ratio"});
+}
+
 TEST_CASE("columns of one title, one beside each of several others, are left out together") {
   CHECK(text_table({{"day"}, {"force", true}, {"sum", true, 1}, {"gas", true}, {"sum", true, 1}},
                    {{"monday", "-0.01", "3.5", "12", "1.5"}}, 24) ==

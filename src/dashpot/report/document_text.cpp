@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/text.h"
 #include "dashpot/report/document.h"
 #include "dashpot/report/wrap.h"
 
@@ -13,15 +14,17 @@ namespace {
 std::string table_text(const DocumentTable& table, int width) {
   const auto columns = static_cast<std::size_t>(width);
   std::string text = table.title.empty() ? "" : paragraph(table.title, columns);
-  if (table.brief.empty()) {
-    text += text_table(table.columns, table.rows, width);
-  } else {
-    std::vector<std::vector<std::string>> rows;
-    for (const std::size_t row : table.brief) rows.push_back(table.rows[row]);
-    text += text_table(table.columns, rows, width);
-    if (const std::size_t more = table.rows.size() - rows.size())
-      text += fmt::format("... and {} more; the report holds all\n", more);
-  }
+  std::vector<std::vector<std::string>> rows;
+  for (const std::size_t row : table.brief) rows.push_back(table.rows[row]);
+  if (table.brief.empty()) rows = table.rows;
+  text += text_table(table.columns, rows, width);
+
+  // What there is no room for is told.
+  if (const std::size_t more = table.rows.size() - rows.size())
+    text += fmt::format("... and {} more; the report holds all\n", more);
+  const std::vector<std::string> left_out = columns_without_room(table.columns, rows, width);
+  if (!left_out.empty())
+    text += paragraph("No room for the columns: " + join(left_out, ", "), columns);
   return table.note.empty() ? text : text + paragraph(table.note, columns);
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 #include "dashpot/base/escape.h"
+#include "dashpot/base/text.h"
 #include "dashpot/report/wrap.h"
 
 namespace dashpot {
@@ -41,22 +43,56 @@ struct Layout {
   }
 };
 
-/// Shortens the elastic columns of a terminal, then drops the least important ones.
-Layout lay_out(const std::vector<TextColumn>& columns, std::vector<std::size_t> widths,
-               std::size_t room) {
-  Layout layout{columns_for(columns, Audience::Terminal), std::move(widths)};
+std::size_t longest_word(const std::string& title) {
+  std::size_t longest = 0;
+  for (const std::string& word : split(title, ' ')) longest = std::max(longest, columns_of(word));
+  return longest;
+}
 
-  // Shorten from the left, each column by no more than is needed.
-  for (const std::size_t column : layout.shown) {
-    const std::size_t excess = layout.total() > room ? layout.total() - room : 0;
-    std::size_t& width = layout.widths[column];
-    if (columns[column].elastic && width > kShortest)
-      width = std::max(kShortest, width - std::min(width, excess));
+/// How wide a column would like to be for its title, and how wide it must be for its cells.
+struct ColumnWidth {
+  std::size_t wish, least;
+};
+
+std::vector<ColumnWidth> widths_of(const std::vector<TextColumn>& columns,
+                                   const std::vector<std::vector<std::string>>& rows) {
+  std::vector<ColumnWidth> widths;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    std::size_t least = longest_word(columns[k].title);
+    for (const auto& row : rows) least = std::max(least, columns_of(row[k]));
+    widths.push_back({std::max(least, columns_of(columns[k].title)), least});
   }
+  return widths;
+}
 
-  // Drop whole columns until the rest has room, or only those that must stay are left. Those of one
-  // title, one beside each of several others, go together: the last of them would seem to be of
-  // all.
+/// Puts titles onto several lines and shortens elastic columns, each by no more than is needed.
+void fit(Layout& layout, const std::vector<TextColumn>& columns,
+         const std::vector<ColumnWidth>& widths, std::size_t room) {
+  layout.widths.clear();
+  for (const ColumnWidth& width : widths) layout.widths.push_back(width.wish);
+  const auto narrow = [&](std::size_t column, std::size_t least) {
+    const std::size_t excess = layout.total() > room ? layout.total() - room : 0;
+    std::size_t& own = layout.widths[column];
+    own = std::max(std::min(own, least), own - std::min(own, excess));
+  };
+
+  // Titles from the right, what may be shortened from the left.
+  for (const std::size_t column : std::views::reverse(layout.shown))
+    narrow(column, widths[column].least);
+  for (const std::size_t column : layout.shown)
+    if (columns[column].elastic) narrow(column, kShortest);
+}
+
+/// Fits the columns of a terminal, and drops the least important ones until the rest has room.
+Layout lay_out(const std::vector<TextColumn>& columns,
+               const std::vector<std::vector<std::string>>& rows, int width) {
+  const std::vector<ColumnWidth> widths = widths_of(columns, rows);
+  const auto room = static_cast<std::size_t>(std::max(width, 20));
+  Layout layout{columns_for(columns, Audience::Terminal), {}};
+  fit(layout, columns, widths, room);
+
+  // Or until only those that must stay are left. Those of one title, one beside each of several
+  // others, go together: the last of them would seem to be of all.
   while (layout.total() > room) {
     const auto last = std::ranges::max_element(
         layout.shown, {}, [&](std::size_t column) { return columns[column].priority; });
@@ -65,6 +101,7 @@ Layout lay_out(const std::vector<TextColumn>& columns, std::vector<std::size_t> 
     std::erase_if(layout.shown, [&](std::size_t column) {
       return columns[column].title == least.title && columns[column].priority == least.priority;
     });
+    fit(layout, columns, widths, room);
   }
   return layout;
 }
@@ -86,15 +123,7 @@ std::vector<std::size_t> columns_for(const std::vector<TextColumn>& columns, Aud
 
 std::string text_table(const std::vector<TextColumn>& columns,
                        const std::vector<std::vector<std::string>>& rows, int width) {
-  // The widest cell of each column says how wide it would like to be.
-  std::vector<std::size_t> widths;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    widths.push_back(columns_of(columns[k].title));
-    for (const auto& row : rows) widths[k] = std::max(widths[k], columns_of(row[k]));
-  }
-  const Layout layout =
-      lay_out(columns, std::move(widths), static_cast<std::size_t>(std::max(width, 20)));
-
+  const Layout layout = lay_out(columns, rows, width);
   std::vector<bool> with_end(columns.size(), false);
   for (const std::size_t k : layout.shown) with_end[k] = begin_alike(rows, k, layout.widths[k]);
 
@@ -108,10 +137,36 @@ std::string text_table(const std::vector<TextColumn>& columns,
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   };
-  add_line([&](std::size_t k) { return columns[k].title; });
+
+  // The titles stand on the rule, however many lines they take.
+  std::vector<std::vector<std::string>> titles(columns.size());
+  std::size_t lines = 1;
+  for (const std::size_t k : layout.shown) {
+    titles[k] = wrap(columns[k].title, layout.widths[k]);
+    lines = std::max(lines, titles[k].size());
+  }
+  for (std::size_t line = 0; line < lines; ++line)
+    add_line([&](std::size_t k) {
+      const std::size_t above = lines - titles[k].size();
+      return line < above ? std::string() : titles[k][line - above];
+    });
   text += std::string(layout.total(), '-') + "\n";
+
   for (const auto& row : rows) add_line([&](std::size_t k) { return row[k]; });
   return text;
+}
+
+std::vector<std::string> columns_without_room(const std::vector<TextColumn>& columns,
+                                              const std::vector<std::vector<std::string>>& rows,
+                                              int width) {
+  const Layout layout = lay_out(columns, rows, width);
+  std::vector<std::string> titles;
+  for (const std::size_t k : columns_for(columns, Audience::Terminal)) {
+    const bool is_shown = std::ranges::find(layout.shown, k) != layout.shown.end();
+    if (!is_shown && std::ranges::find(titles, columns[k].title) == titles.end())
+      titles.push_back(columns[k].title);
+  }
+  return titles;
 }
 
 std::string markdown_table(const std::vector<TextColumn>& columns,

@@ -27,9 +27,15 @@ struct TextColumn {
 std::vector<std::size_t> columns_for(const std::vector<TextColumn>& columns, Audience medium);
 
 /// Aligned columns for a terminal, two spaces apart, with a rule below the titles, within `width`
-/// characters where leaving out and shortening columns can: in the middle of what begins alike.
+/// characters where titles on several lines, shortening (in the middle of what begins alike) and
+/// leaving out columns can.
 std::string text_table(const std::vector<TextColumn>& columns,
                        const std::vector<std::vector<std::string>>& rows, int width);
+
+/// Titles of the columns that text_table() leaves out, each once.
+std::vector<std::string> columns_without_room(const std::vector<TextColumn>& columns,
+                                              const std::vector<std::vector<std::string>>& rows,
+                                              int width);
 
 /// All columns that Markdown shows.
 std::string markdown_table(const std::vector<TextColumn>& columns,
