@@ -75,6 +75,23 @@ TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what
   CHECK(!html_document(document).empty());
 }
 
+TEST_CASE("what speaks against a sweep's rides is told on a terminal, too") {
+  Sweep sweep = example_sweep();
+  sweep.notes = {"the road ends after 1 s of 30 s"};
+  const Document document = sweep_document(sweep);
+  CHECK(document_text(document, 80).find("the road ends after 1 s") != std::string::npos);
+  CHECK(document_text(document, 80).find("No room for the columns: ") != std::string::npos);
+  CHECK(document_text(document, 300).find("No room") == std::string::npos);
+}
+
+TEST_CASE("a correlation that is printed as 0 has no sign") {
+  Sweep sweep = example_sweep();
+  for (std::size_t v = 0; v < sweep.vehicles.size(); ++v)
+    sweep.rides[0][v].body_acceleration = static_cast<double>(v * 10 % 211);  // -0.0041
+  const Document document = sweep_document(sweep);
+  CHECK(table_of(document, "sensitivity").rows[0][1] == "0.00");
+}
+
 TEST_CASE("a sweep's drive is a current, a voltage or a place from 0 to 1, and its heads say so") {
   Sweep sweep = example_sweep();
   sweep.rides[1][0].current = 0.5;

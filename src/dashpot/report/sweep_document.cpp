@@ -83,7 +83,6 @@ DocumentSection note_section(const Sweep& sweep) {
   section.paragraphs.push_back(
       "Intervals hold with 95 % for the quantile of all such vehicles, whatever the distribution "
       "(order statistics).");
-  section.remarks = sweep.notes;
   return section;
 }
 

@@ -114,6 +114,12 @@ std::vector<Weight> weights_of(const Sweep& sweep) {
   return weights;
 }
 
+/// "-0.64"; without the sign of what is 0 as it is printed.
+std::string correlation_text(double rho) {
+  const std::string text = fmt::format("{:.2f}", rho);
+  return text == "-0.00" ? "0.00" : text;
+}
+
 DocumentTable correlation_table(const Sweep& sweep, std::size_t c,
                                 const std::vector<Weight>& weights) {
   const std::vector<ShownMeasure> measures = shown_measures(sweep);
@@ -128,7 +134,7 @@ DocumentTable correlation_table(const Sweep& sweep, std::size_t c,
     for (const ShownMeasure& shown : measures) {
       const auto rho = rank_correlation(input_values(sweep, weight.input),
                                         measure_values(sweep, c, *shown.measure));
-      row.push_back(rho ? fmt::format("{:.2f}", *rho) : "-");
+      row.push_back(rho ? correlation_text(*rho) : "-");
     }
     table.rows.push_back(std::move(row));
   }
@@ -257,6 +263,7 @@ DocumentSection quantile_section(const Sweep& sweep) {
   }
   section.tables.push_back(std::move(table));
   section.figures.push_back(std::move(figure));
+  section.remarks = sweep.notes;
   return section;
 }
 

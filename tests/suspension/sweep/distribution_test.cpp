@@ -41,6 +41,7 @@ TEST_CASE("a uniform distribution has the moments of one") {
   CHECK_CLOSE(mean_of(d), 400, 1e-9, 0);
   CHECK_CLOSE(variance_of(d), 200.0 * 200 / 12, 1e-6, 0);
   CHECK(d.description("kg") == "uniform, 300 ... 500 kg");
+  CHECK(read("{uniform: [20 t, 250 t]}").description("kg") == "uniform, 20000 ... 250000 kg");
 }
 
 TEST_CASE(
@@ -90,7 +91,7 @@ TEST_CASE("a distribution that makes no sense is refused with file, line and wha
       {"{uniform: [300 kg]}", "has 1 ends; two: uniform: [from, to]"},
       {"{uniform: [-5 kg, 300 kg]}", "sprung_mass is -5 kg; between 1 and 1e+06 kg"},
       {"{normal: 400 kg}", "a distribution needs 'sd'"},
-      {"{normal: 400 kg, sd: 0}", "a spread of 0; above 0"},
+      {"{normal: 400 kg, sd: 0}", "the spread of sprung_mass is 0 kg; above 0"},
       {"{normal: 400 kg, sd: 40 kg, from: 900 kg}",
        "is cut off where the distribution has no values"},
       {"{normal: 400 kg, sd: 40 N}", "'N' is not a unit of it; it is counted in kg"},

@@ -26,17 +26,26 @@ double normal_between(double low, double high, double u) {
   return std::clamp(normal_quantile(share), low, high);
 }
 
+/// Four digits, and no exponent up to a million, as people write stiffnesses.
+std::string plain_number(double value) {
+  const double size = std::abs(value);
+  return format_number(value, size >= 1e4 && size < 1e6 ? 6 : 4);
+}
+
 std::string with_unit(double value, const std::string& unit) {
-  return format_number(value) + (unit == "1" ? "" : " " + unit);
+  return plain_number(value) + (unit == "1" ? "" : " " + unit);
 }
 
 double read_within(const Value& value, const ParameterRow& row) {
   return checked(row, read_quantity(value, row.unit), value.where());
 }
 
-double positive(double number, const Value& at) {
+double positive(double number, const Value& at, const ParameterRow& row) {
   if (number > 0) return number;
-  throw Error(at.where(), "a spread of " + format_number(number), "above 0");
+  throw Error(
+      at.where(),
+      "the spread of " + std::string(row.name) + " is " + with_unit(number, std::string(row.unit)),
+      "above 0");
 }
 
 /// "5 %" of `whole`, or a quantity.
@@ -46,7 +55,7 @@ double read_spread(const Value& value, const ParameterRow& row, double whole) {
   const double number =
       relative ? std::abs(whole) * parse_quantity(value.as_string(), "1", value.where())
                : read_quantity(value, row.unit);
-  return positive(number, value);
+  return positive(number, value, row);
 }
 
 void read_uniform(const Value& value, const ParameterRow& row, Distribution& distribution) {
@@ -115,16 +124,16 @@ double Distribution::at(double u) const {
 }
 
 std::string Distribution::description(const std::string& unit) const {
-  const std::string range = format_number(from) + " ... " + with_unit(to, unit);
+  const std::string range = plain_number(from) + " ... " + with_unit(to, unit);
   if (kind == Kind::Uniform) return "uniform, " + range;
   if (kind == Kind::Normal)
-    return "normal, " + format_number(centre) + " +- " + with_unit(spread, unit) + ", within " +
+    return "normal, " + plain_number(centre) + " +- " + with_unit(spread, unit) + ", within " +
            range;
   if (kind == Kind::LogNormal)
     return "log-normal, median " + with_unit(centre, unit) + ", factor " +
            format_number(std::exp(spread)) + ", within " + range;
   std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(format_number(value));
+  for (const double value : values) texts.push_back(plain_number(value));
   return "one of " + join(texts, ", ") + (unit == "1" ? "" : " " + unit);
 }
 
