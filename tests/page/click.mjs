@@ -33,6 +33,11 @@ async function open(name, options = {}) {
     const remarks = page.locator("tbody tr > :nth-child(n + 4):last-child:not(.number)");
     const squeezed = await remarks.evaluateAll((cells) => cells.filter((cell) => cell.offsetWidth < 150).length);
     assert.equal(squeezed, 0, `${title}: remarks with a word per line`);
+    const doubled = await page.locator("figure.plot h3").evaluateAll((titles) => titles.map((one) => one.textContent)
+      .filter((text, k) => [...titles[k].closest("section").querySelectorAll("h3")].some((h3) => !h3.closest("figure") && h3.textContent === text)));
+    assert.deepEqual(doubled, [], `${title}: the title of a figure stands above its plot once more`);
+    const unnamed = await page.locator("figure.plot .canvas").evaluateAll((plots) => plots.filter((one) => !one.getAttribute("aria-label")).length);
+    assert.equal(unnamed, 0, `${title}: plots that a screen reader cannot name`);
     assert.deepEqual(problems, [], title);
     await page.close();
   }};
@@ -193,6 +198,10 @@ try {
   await sliders(await open("sliders.html"));
   await over(await open("over.html"));
   for (const options of [{scheme: "dark"}, {width: 1056}, {width: 390}]) await (await open("sliders.html", options)).done();
+
+  const curve = await open("curve.html");
+  assert.equal(await curve.page.getByRole("img", {name: "Force of a dashpot: force (N) over velocity (m/s)"}).count(), 1);
+  await curve.done();
 
   const inspect = await open("inspect.html");
   await inspect.page.selectOption("#record", "1");

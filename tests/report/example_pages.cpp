@@ -52,6 +52,21 @@ dashpot::Document sliders_document(bool records = false) {
           .samples = std::move(samples)};
 }
 
+/// A figure whose sole plot has no title of its own.
+dashpot::Document curve_document() {
+  dashpot::DocumentSection section{.name = "curve", .title = "A curve", .paragraphs = {}};
+  dashpot::FigurePanel panel{
+      "", "velocity (m/s)", "force (N)", {{"force", "series-1", {0, 1}, {0, 2}}}};
+  section.figures.push_back({"line", "Force of a dashpot", "One plot.", {std::move(panel)}});
+  return {.title = "Curve",
+          .subtitle = {},
+          .verdict = "A figure of one plot.",
+          .sections = {std::move(section)},
+          .command = {},
+          .version = "0.1.0",
+          .date = "2026-11-21"};
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -63,6 +78,7 @@ int main(int count, char** arguments) {
                       dashpot::html_document(dashpot::ranking_document(example.input())));
   dashpot::write_file(folder / "sliders.html", dashpot::html_document(sliders_document()));
   dashpot::write_file(folder / "over.html", dashpot::html_document(sliders_document(true)));
+  dashpot::write_file(folder / "curve.html", dashpot::html_document(curve_document()));
   const ExampleRanking crowded = crowded_ranking(30);
   dashpot::write_file(folder / "crowded.html",
                       dashpot::html_document(dashpot::ranking_document(crowded.input())));

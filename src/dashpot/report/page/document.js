@@ -44,7 +44,7 @@ function document_table(table) {
 
 function document_figure(figure) {
   const plots = figure.panels.map((panel) => {
-    const plot = new Plot(panel.title || figure.title, panel.note);
+    const plot = new Plot(panel.title, panel.note, panel.title || `${figure.title}: ${panel.y_label} over ${panel.x_label}`);
     const show = () => plot.show(() => panel_spec(panel));
     if (panel.series.some(({when}) => when)) on_choice(show);
     show();

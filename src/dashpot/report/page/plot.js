@@ -7,19 +7,19 @@ const kPadding = 0.04;
 const all_plots = [];
 
 class Plot {
-  constructor(title, note = null) {
+  // `spoken` is what a screen reader calls it, where no title stands above it.
+  constructor(title, note = null, spoken = title) {
     this.hidden = new Set();
     this.legend = element("div", {class: "legend"});
     this.reset_button = element("button", {type: "button", class: "reset", hidden: true, onclick: () => this.reset()},
       "Reset view");
-    this.canvas = element("div", {class: "canvas", tabindex: 0, role: "img", "aria-label": title,
+    this.canvas = element("div", {class: "canvas", tabindex: 0, role: "img", "aria-label": spoken,
       onkeydown: (event) => this.on_key(event)});
     this.readout = element("div", {class: "readout", hidden: true});
     this.canvas.append(this.readout);
     this.node = element("figure", {class: "plot"},
-      element("figcaption", {}, element("h3", {}, title), this.reset_button),
+      element("figcaption", {}, title ? element("h3", {}, title) : null, this.reset_button),
       this.legend, this.canvas, note ? element("p", {class: "note"}, note) : null);
-    this.title = title;
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     all_plots.push(this);
   }
