@@ -15,9 +15,22 @@ const folder = mkdtempSync(join(tmpdir(), "dashpot-page-"));
 execFileSync(program, [folder]);
 const context = await start_browser(join(folder, "profile"));
 
+// Keeps what plots write across: text, and how far it stands out of its canvas to the left and right, px.
+function keep_what_is_written() {
+  window.written = [];
+  const write = CanvasRenderingContext2D.prototype.fillText;
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, ...rest) {
+    const {a, b, e} = this.getTransform(), width = a * this.measureText(text).width;
+    const left = e + a * x - width * ({center: 0.5, right: 1, end: 1}[this.textAlign] ?? 0);
+    if (b === 0) window.written.push({text, out: Math.max(-left, left + width - this.canvas.width)});
+    return write.call(this, text, x, ...rest);
+  };
+}
+
 // A fresh page that fails the test on any script error and on any request that is not its own file.
 async function open(name, options = {}) {
   const page = await context.newPage();
+  await page.addInitScript(keep_what_is_written);
   const problems = [];
   watch(page, problems, /^file:\/\//);
   if (options.width) await page.setViewportSize({width: options.width, height: 900});
@@ -36,6 +49,8 @@ async function open(name, options = {}) {
     const doubled = await page.locator("figure.plot h3").evaluateAll((titles) => titles.map((one) => one.textContent)
       .filter((text, k) => [...titles[k].closest("section").querySelectorAll("h3")].some((h3) => !h3.closest("figure") && h3.textContent === text)));
     assert.deepEqual(doubled, [], `${title}: the title of a figure stands above its plot once more`);
+    const cut = await page.evaluate(() => window.written.filter(({out}) => out > 1).map(({text}) => text));
+    assert.deepEqual([...new Set(cut)], [], `${title}: texts of a plot that are cut off`);
     const unnamed = await page.locator("figure.plot .canvas").evaluateAll((plots) => plots.filter((one) => !one.getAttribute("aria-label")).length);
     assert.equal(unnamed, 0, `${title}: plots that a screen reader cannot name`);
     assert.deepEqual(problems, [], title);
@@ -201,6 +216,8 @@ try {
 
   const curve = await open("curve.html");
   assert.equal(await curve.page.getByRole("img", {name: "Force of a dashpot: force (N) over velocity (m/s)"}).count(), 1);
+  const written = (await curve.page.evaluate(() => window.written)).map(({text}) => text);
+  for (const text of ["2.0e−9", "4414.510"]) assert.ok(written.includes(text), `${text} among ${written}: ticks of a tiny axis are told apart`);
   await curve.done();
 
   const inspect = await open("inspect.html");

@@ -58,6 +58,13 @@ dashpot::Document curve_document() {
   dashpot::FigurePanel panel{
       "", "velocity (m/s)", "force (N)", {{"force", "series-1", {0, 1}, {0, 2}}}};
   section.figures.push_back({"line", "Force of a dashpot", "One plot.", {std::move(panel)}});
+
+  // One whose axes hardly differ from end to end.
+  dashpot::FigurePanel tiny{"A tiny range",
+                            "energy (J)",
+                            "force (N)",
+                            {{"force", "series-1", {1e-9, 8e-9}, {4414.5, 4414.52}}}};
+  section.figures.push_back({"tiny", "", "", {std::move(tiny)}});
   return {.title = "Curve",
           .subtitle = {},
           .verdict = "A figure of one plot.",

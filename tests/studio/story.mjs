@@ -76,6 +76,17 @@ async function recordings(page) {
   await shoot(page, "2-recordings");
 }
 
+// Ticks that hardly differ are told apart, and rounding alone is no range.
+async function axes(page) {
+  const [texts, room, places, range] = await page.evaluate(() => import("/plot.js").then(({tick_text, tick_width, nice_ticks, extent}) =>
+    [[[4414.5, 4414.50005], [120010, 120020], [1e-6, 1.05e-6], [0, 0.25, 0.5]].map(tick_text), tick_width(["4414.50005"]),
+      nice_ticks(4414.5, 4414.5 + 2 ** -40).length, extent([[1, 1 + 2 ** -52]])]));
+  assert.deepEqual(texts, [["4414.50000", "4414.50005"], ["1.2001e+5", "1.2002e+5"], ["1.00e-6", "1.05e-6"], ["0.00", "0.25", "0.50"]]);
+  assert.ok(room > 80, `${room} px`);
+  assert.ok(places <= 60, `${places} ticks`);
+  assert.ok(range[1] - range[0] > 0.05, `${range}`);
+}
+
 async function correction(page) {
   await page.locator(".list button", {hasText: "5_mm_3_Hz_1_V"}).click();
   const greatest = async () => {
@@ -358,7 +369,7 @@ async function small_and_dark(page) {
 try {
   const page = await open(studio.address);
   assert.equal(new URL(page.url()).hash, "", "the token leaves the address");
-  for (const step of [recordings, correction, same_dataset_file, fitting, same_models, comparing, sliding, driving, designing, exporting]) {
+  for (const step of [recordings, axes, correction, same_dataset_file, fitting, same_models, comparing, sliding, driving, designing, exporting]) {
     const begun = Date.now();
     await step(page);
     console.log(`${step.name}: ${Date.now() - begun} ms`);

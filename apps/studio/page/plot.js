@@ -22,19 +22,23 @@ const is_gap = (value) => value === null || Number.isNaN(value);
 
 // Three digits tell a place on an axis; a narrow window needs more.
 export function tick_text(values) {
-  const span = Math.abs(values.at(-1) - values[0]) / Math.max(1, values.length - 1);
   const largest = Math.max(...values.map(Math.abs));
-  if (largest !== 0 && (largest >= 1e5 || largest < 1e-3)) return values.map((v) => v === 0 ? "0" : v.toExponential(1));
-  let digits = span > 0 ? Math.max(0, Math.min(9, -Math.floor(Math.log10(span) + 1e-9))) : 0;
-  while (digits < 9 && values.some((value) => Math.abs(value - value.toFixed(digits)) > 0.01 * span)) ++digits;  // steps of 2.5
-  return values.map((value) => value.toFixed(digits));
+  const span = Math.abs(values.at(-1) - values[0]) / Math.max(1, values.length - 1) || largest;
+  const has_exponent = largest !== 0 && (largest >= 1e5 || largest < 1e-3);
+  const text = (value, digits) => has_exponent ? value.toExponential(digits) : value.toFixed(digits);
+  let digits = has_exponent ? 1 : span > 0 ? Math.max(0, Math.min(15, -Math.floor(Math.log10(span) + 1e-9))) : 0;
+  while (digits < 15 && values.some((value) => Math.abs(value - text(value, digits)) > 0.01 * span)) ++digits;  // steps of 2.5
+  return values.map((value) => has_exponent && value === 0 ? "0" : text(value, digits));
 }
+
+// Width, px, that the longest of these texts takes on an axis up, with room for the label beside it.
+export const tick_width = (texts) => 18 + 6.4 * Math.max(0, ...(texts ?? []).map((text) => String(text).length));
 
 // Places of ticks from a to b, about `count` of them, at 1, 2 or 5 times a power of ten.
 export function nice_ticks(a, b, count = 6) {
   const rough = (b - a) / count, unit = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].find((k) => k * unit >= rough) * unit;
   const list = [];
-  for (let v = Math.ceil(a / step) * step; v <= b; v += step) list.push(Math.abs(v) < step / 1e6 ? 0 : v);
+  for (let v = Math.ceil(a / step) * step; v <= b && list.length < 10 * count; v += step) list.push(Math.abs(v) < step / 1e6 ? 0 : v);
   return list;
 }
 
@@ -69,7 +73,7 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
     mode: 2, width, height, legend: {show: false},
     cursor: {drag: {x: true, y: false, setScale: false}, points: {show: false}, focus: {prox: -1}},
     scales: {x: {time: false, auto: false, range: (_, low, high) => [low, high]}, y: {auto: false, range: (_, low, high) => [low, high], distr: is_log ? 3 : 1}},
-    axes: [{...axis(x_label), size: 26}, {...axis(y_label), size: 46}],
+    axes: [{...axis(x_label), size: 26}, {...axis(y_label), size: (_, texts) => Math.max(46, tick_width(texts))}],
     series: [{}, ...series.map(() => ({paths: path, facets: [{scale: "x", auto: false}, {scale: "y", auto: false}]}))],
     hooks: {setSelect: [(u) => {
       if (!on_zoom || u.select.width < 4) return;
@@ -80,19 +84,28 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
   };
 }
 
+// How far apart these are; what differs by rounding alone is one value, and has a window of its own size.
+export function span_of(low, high) {
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  return high - low > 1e-9 * size ? high - low : size || 1;
+}
+
 export function extent(lists, share = 0.04, is_log = false) {
   let low = Infinity, high = -Infinity;
   for (const list of lists) for (const value of list) if (!is_gap(value) && (!is_log || value > 0)) { low = Math.min(low, value); high = Math.max(high, value); }
   if (low > high) return is_log ? [0.1, 1] : [0, 1];
   if (is_log) return [low / 1.3, high * 1.3];
-  const room = (high - low || Math.abs(high) || 1) * share;
+  const room = span_of(low, high) * share;
   return [low - room, high + room];
 }
 
 // The figure as a file that a paper takes.
 export function svg_of({title, series, x_label, y_label, x_range, is_log}) {
-  const width = 640, height = 400, {left, right, top, bottom} = kMargin;
+  const width = 640, height = 400, {right, top, bottom} = kMargin;
   const [x0, x1] = x_range ?? extent(series.map((s) => s.x), 0.02), [y0, y1] = extent(series.map((s) => s.y), 0.04, is_log);
+  const xs = nice_ticks(x0, x1), ys = is_log ? [y0 * 1.3, y1 / 1.3] : nice_ticks(y0, y1);
+  const x_texts = tick_text(xs), y_texts = tick_text(ys);
+  const left = Math.max(kMargin.left, tick_width(y_texts));
   const y_of = (y) => is_log ? Math.log(y) : y;
   const px = (x) => left + (x - x0) / (x1 - x0) * (width - left - right);
   const py = (y) => height - bottom - (y_of(y) - y_of(y0)) / (y_of(y1) - y_of(y0)) * (height - top - bottom);
@@ -100,8 +113,6 @@ export function svg_of({title, series, x_label, y_label, x_range, is_log}) {
   const lines = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12">`,
     `<title>${text(title)}</title><rect width="${width}" height="${height}" fill="white"/>`,
     `<clipPath id="c"><rect x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}"/></clipPath>`];
-  const xs = nice_ticks(x0, x1), ys = is_log ? [y0 * 1.3, y1 / 1.3] : nice_ticks(y0, y1);
-  const x_texts = tick_text(xs), y_texts = tick_text(ys);
   xs.forEach((x, i) => lines.push(`<path d="M${px(x)} ${top}V${height - bottom}" stroke="#e5e5e5"/><text x="${px(x)}" y="${height - bottom + 16}" text-anchor="middle">${x_texts[i]}</text>`));
   ys.forEach((y, i) => lines.push(`<path d="M${left} ${py(y)}H${width - right}" stroke="#e5e5e5"/><text x="${left - 6}" y="${py(y) + 4}" text-anchor="end">${y_texts[i]}</text>`));
   const kInk = ["#7a828c", "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];

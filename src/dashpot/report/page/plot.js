@@ -71,15 +71,16 @@ class Plot {
   options(visible) {
     const axis = {stroke: colour("muted"), grid: {stroke: colour("grid"), width: 1}, ticks: {stroke: colour("grid"), size: 4},
       font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelGap: 2, labelSize: 20};
+    const beyond = this.spec.x.ticks ? 10 : Math.max(10, last_tick_width(this.full.x) / 2);  // for the text of the last tick
     return {
-      mode: 2, width: this.canvas.clientWidth, height: this.height(), padding: [8, 10, 0, 0],
+      mode: 2, width: this.canvas.clientWidth, height: this.height(), padding: [8, beyond, 0, 0],
       legend: {show: false},
       cursor: {x: true, y: true, points: {show: false}, dataIdx: () => null, drag: {x: true, y: true, uni: 25}},
       scales: {x: {time: false, range: () => this.full.x}, y: {range: () => this.full.y}},
       series: [null, ...visible.map(series_options)],
       axes: [
-        {...axis, scale: "x", label: this.spec.x.label, size: 30, space: 56, ...axis_ticks(this.spec.x)},
-        {...axis, scale: "y", label: this.spec.y.label, size: 56, ...axis_ticks(this.spec.y)},
+        {...axis, scale: "x", label: this.spec.x.label, size: 30, space: tick_room, ...axis_ticks(this.spec.x)},
+        {...axis, scale: "y", label: this.spec.y.label, size: tick_width, ...axis_ticks(this.spec.y)},
       ],
       hooks: {
         setCursor: [(u) => this.read(u)],

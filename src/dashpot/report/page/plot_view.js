@@ -1,7 +1,8 @@
 // The part of the plane that a plot shows, and the values under the pointer.
 
+// What differs by rounding alone is one value, and has a window of its own size.
 function padded([low, high], part) {
-  const span = high - low || Math.abs(high) || 1;
+  const size = Math.max(Math.abs(low), Math.abs(high)), span = high - low > 1e-9 * size ? high - low : size || 1;
   return [low - part * span, high + part * span];
 }
 
@@ -50,12 +51,33 @@ function log_places(low, high) {
   return places;
 }
 
-// As many decimals as the ticks need: quarters need two.
+// As many digits as tell the ticks apart: quarters need two decimals. Very small and very large ones have exponents.
 function tick_text(ticks) {
-  const is_round = (value, decimals) => Math.abs(value * 10 ** decimals - Math.round(value * 10 ** decimals)) < 1e-6;
-  let decimals = 0;
-  while (decimals < 8 && !ticks.every((value) => value === null || is_round(value, decimals))) decimals++;
-  return (value) => value === null ? "" : (value === 0 ? "0" : value.toFixed(decimals).replace("-", "−"));
+  const values = ticks.filter((value) => value !== null), largest = Math.max(...values.map(Math.abs));
+  const step = values.length > 1 ? Math.abs(values[1] - values[0]) : largest;
+  const has_exponent = largest > 0 && (largest < 1e-4 || largest >= 1e7);
+  const text = (value, digits) => has_exponent ? value.toExponential(digits) : value.toFixed(digits);
+  let digits = 0;
+  while (digits < 15 && !values.every((value) => Math.abs(value - Number(text(value, digits))) < 1e-3 * step)) digits++;
+  return (value) => value === null ? "" : value === 0 ? "0" : text(value, digits).replace("e+", "e").replaceAll("-", "−");
+}
+
+const kLetter = 6.8;  // px, of a tick's text
+
+// Width of the text of a tick at the end of an axis across, with the digit that halves of steps need.
+function last_tick_width([low, high]) {
+  const step = 10 ** Math.floor(Math.log10((high - low) / 6)), last = Math.round(high / step) * step;
+  return kLetter * tick_text([last - step / 2, last])(last).length;
+}
+
+// Room from one tick of an axis across to the next.
+function tick_room(u, axis, low, high) {
+  return Math.max(56, 16 + last_tick_width([low, high]));
+}
+
+// Width of an axis up: for its label and the longest text of a tick.
+function tick_width(u, texts) {
+  return Math.max(56, 20 + kLetter * Math.max(0, ...(texts ?? []).map((text) => String(text).length)));
 }
 
 // The warm-up: simulated, not scored.
