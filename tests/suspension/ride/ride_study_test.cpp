@@ -135,6 +135,10 @@ TEST_CASE("rides that cannot be are refused") {
         }).find("vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?") == 0);
   CHECK(refusal([](auto& o) { o.frequencies = {4, 2}; }) ==
         "vehicle: its frequencies do not rise from above 0");
+  CHECK(refusal([](auto& o) { o.frequencies = {2, 2}; }) ==
+        "vehicle: its frequencies do not rise from above 0");
+  CHECK(refusal([](auto& o) { o.step_height = 0; }) ==
+        "vehicle: its step has no height; a step up or down");
   CHECK(refusal([](auto& o) { o.gains.amplitude = 0; }) ==
         "vehicle: its sines have no amplitude; an amplitude above 0");
   const TemporaryFolder folder;

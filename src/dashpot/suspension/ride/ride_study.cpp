@@ -163,19 +163,23 @@ double integral_of(const RiddenVehicle& ridden, Gain GainPoint::* signal) {
 void require_rideable(const RideStudyOptions& options, const Vehicle& vehicle) {
   if (vehicle.set.plant.tyres.empty() || vehicle.set.plant.struts.empty())
     throw Error(options.vehicle.where, vehicle.set.name + " has no tyres to ride on", "a vehicle");
-  if (options.frequencies.empty() || !std::ranges::is_sorted(options.frequencies) ||
-      !(options.frequencies.front() > 0))
+  const std::vector<double>& frequencies = options.frequencies;
+  const bool rises =
+      std::ranges::adjacent_find(frequencies, std::greater_equal{}) == frequencies.end();
+  if (frequencies.empty() || !rises || !(frequencies.front() > 0))
     throw Error(options.vehicle.where, "its frequencies do not rise from above 0");
   if (!(options.gains.amplitude > 0))
     throw Error(options.vehicle.where, "its sines have no amplitude", "an amplitude above 0");
+  if (options.step_height == 0)
+    throw Error(options.vehicle.where, "its step has no height", "a step up or down");
 
   // What would not end in a day is refused before it begins.
   constexpr double kLeastFrequency = 1e-3, kMostFrequency = 1e3;  // Hz
   constexpr std::size_t kMostHeld = 1000;
-  if (options.frequencies.front() < kLeastFrequency || options.frequencies.back() > kMostFrequency)
+  if (frequencies.front() < kLeastFrequency || frequencies.back() > kMostFrequency)
     throw Error(options.vehicle.where,
-                "its frequencies go from " + format_number(options.frequencies.front()) + " to " +
-                    format_number(options.frequencies.back()) + " Hz",
+                "its frequencies go from " + format_number(frequencies.front()) + " to " +
+                    format_number(frequencies.back()) + " Hz",
                 "vehicles answer between " + format_number(kLeastFrequency) + " and " +
                     format_number(kMostFrequency) + " Hz");
   if (options.held > kMostHeld)
