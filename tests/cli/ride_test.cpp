@@ -1,4 +1,7 @@
+#include <sstream>
+
 #include "dashpot/base/file.h"
+#include "dashpot/report/wrap.h"
 #include "dashpot/value.h"
 #include "program.h"
 
@@ -12,11 +15,15 @@ TEST_CASE("ride: two controllers against passive, with a page") {
       "--settling "
       "4 --chirp 5 "
       "--threads 1 --output " +
-      out);
+          out,
+      "env -u COLUMNS");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
+  std::istringstream lines(result.output);
+  for (std::string line; std::getline(lines, line);)
+    if (!contains(line, out) && !line.starts_with("note: ")) CHECK(columns_of(line) <= 80);
   CHECK(contains(result.output, "Most comfortable is mix1,crossover=2Hz: "));
-  CHECK(contains(result.output, "below passive"));
+  CHECK(contains(read_file(out + "/report.md"), "below passive"));
   CHECK(contains(read_file(out + "/report.html"), "The trade-off on the road"));
   CHECK(contains(read_file(out + "/report.md"), "| skyhook |"));
   const Value data = parse_json(read_file(out + "/report.json"), "report");

@@ -196,12 +196,12 @@ DocumentTable step_table(const RideStudy& study) {
               "step (tyre); '-' where the run ends outside."};
   const std::pair<const char*, const char*> measures[] = {
       {"settling", "body settled, s"},
-      {"deviation", "body acceleration, m/s^2"},
+      {"deviation", "body acceleration, greatest, m/s^2"},
       {"tyre_settling", "tyre settled, s"},
-      {"body_acceleration", "body acceleration, rms"}};
+      {"body_acceleration", "body acceleration, rms, m/s^2"}};
   for (const auto& [name, title] : measures) {
     table.columns.push_back({.title = title, .numeric = true});
-    table.columns.push_back({.title = "ratio", .numeric = true});
+    table.columns.push_back({.title = "ratio", .numeric = true, .priority = 1});
   }
   table.columns.push_back({.title = "decay ratio", .numeric = true});
 
