@@ -7,6 +7,7 @@
 #include "dashpot/record/record_file.h"
 #include "dashpot/record/sample_columns.h"
 #include "dashpot/report/simulation_document.h"
+#include "dashpot/suspension/trace.h"
 #include "document_text.h"
 #include "study_results.h"
 #include "units.h"
@@ -47,6 +48,9 @@ Simulation simulate_choice(const SimulateSettings& settings, Console& console) {
     driven.notes.emplace_back(
         "left and right wheels meet the same road, so that the car does not roll; "
         "'track_width=1.5m' of the road gives each side its own");
+  const std::string foot = foot_of(driven.set.plant);
+  if (foot != "tyre")
+    driven.notes.push_back("the " + foot + " stands on the ground itself: no vehicle is between");
   const double duration = duration_of(settings.road, *ground);
   const double discard = usual_discard(*ground, duration);
   if (ground->is_steady() && discard == 0)

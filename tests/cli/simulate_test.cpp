@@ -27,6 +27,13 @@ TEST_CASE("simulate: a car on a road of one track is said not to roll" *
                   "does not roll"));
 }
 
+TEST_CASE("simulate: a seat is said to have no vehicle below it") {
+  const std::string run = "simulate --damper viscous --duration 1 --road bump --plant ";
+  CHECK(
+      contains(run_dashpot(run + "seated_driver").output, "the seat stands on the ground itself"));
+  CHECK(!contains(run_dashpot(run + "quarter_car").output, "stands on the ground"));
+}
+
 TEST_CASE("simulate: what a short run and fixed steps cannot tell is said") {
   // 15 s and more leave out their start, and a bump is all start.
   const std::string road = "simulate --against none --road iso8608_fft,length=50 --duration ";
