@@ -225,10 +225,12 @@ class RandomRequest {
   static std::string number(double value) { return format_number(value, 6); }
 
   /// Up to half as much again as the family was driven with; at times compressed, or off the
-  /// middle.
-  std::string place() {
-    const double side = random_.uniform() < 0.2 ? -1 : 1, most = family_.domain.velocity_max;
-    if (text_.empty()) is_compressed_ = side < 0;
+  /// middle. A bound of a force has the side of the request.
+  std::string place(bool of_a_bound = false) {
+    const bool is_compressed = random_.uniform() < 0.2;
+    if (text_.empty()) is_compressed_ = is_compressed;
+    const double side = (of_a_bound ? is_compressed_ : is_compressed) ? -1 : 1,
+                 most = family_.domain.velocity_max;
     std::string text = "current: " + number(uniform(0.05, 1.5) * family_.domain.current_max) +
                        ", velocity: " + number(side * logarithmic(0.02, 1.5) * most);
     if (random_.uniform() < 0.1)
@@ -265,13 +267,13 @@ class RandomRequest {
     const auto maybe = [&](const std::string& text) {
       if (random_.uniform() > 0.2) return;
       std::string own = text;
-      if (random_.uniform() < 0.2) own += ", " + place();
+      if (random_.uniform() < 0.2) own += ", " + place(true);
       if (two_models_ && random_.uniform() < 0.3)
         own += random_.uniform() < 0.5 ? ", by: second" : ", by: both";
       all.push_back("{quantity: " + own + "}");
     };
     maybe("force, min: " + near((is_compressed_ ? -3 : 0.3) * force));
-    maybe("force, max: " + near(3 * force));
+    maybe("force, max: " + near((is_compressed_ ? -0.3 : 3) * force));
     maybe("off_force, max: " + near((is_compressed_ ? -0.3 : 2) * off));
     maybe("dynamic_range, min: " + near(0.6 * force / off));
     maybe("dynamic_range, max: " + near(5 * force / off));
