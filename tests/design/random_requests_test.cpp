@@ -208,8 +208,9 @@ class RandomRequest {
     if (random_.uniform() < 0.3)
       add("tolerances: {gap: 0.05 mm}\nrobust: {share: 0.9, samples: 6}\n");
     constrain();
-    add("goals: [{" + goal() + "}");
-    if (random_.uniform() < 0.2) add(", {" + goal() + "}");
+    const std::string first = goal();
+    add("goals: [{" + first + "}");
+    if (random_.uniform() < 0.2) add(", {" + goal_beside(first) + "}");
     add("]\n");
   }
 
@@ -295,6 +296,15 @@ class RandomRequest {
     if (random_.uniform() < 0.1) text += ", " + place();
     if (two_models_ && random_.uniform() < 0.2) text += ", by: second";
     return text;
+  }
+
+  /// Of another quantity than this one.
+  std::string goal_beside(const std::string& first) {
+    const auto asked = [](const std::string& text) { return text.substr(0, text.find(',')); };
+    for (;;) {
+      std::string text = goal();
+      if (asked(text) != asked(first)) return text;
+    }
   }
 
   Random& random_;
