@@ -83,6 +83,7 @@ std::vector<std::vector<DamperInput>> observed_motions(const InPlantSetup& setup
 ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>& plant,
                                   const std::vector<PlantRecording>& fitted,
                                   const InPlantOptions& options) {
+  // Nothing of the plant and its sensors is sought.
   for (std::size_t k = 0; k < plant.size(); ++k)
     setup.known.emplace_back(setup.unknown[k].name, plant[k]);
   setup.unknown.clear();
@@ -90,6 +91,8 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
     sensor.finds_delay = false;
     sensor.finds_cutoff.reset();
   }
+
+  // A dashpot as usual stands for the damper, and errors of its force for all else.
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
   const DrivenPlant equations(make_plant(*setup.model, setup.known), inputs);
