@@ -1,4 +1,4 @@
-// Prints what docs/in-plant.md says of family members in a plant.
+// Prints what docs/in-plant-measured.md says of family members in a plant.
 //
 //   bench_family_in_plant leans|bingham BUILDS AMPERE [FOLDER]
 //

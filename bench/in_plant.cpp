@@ -1,4 +1,4 @@
-// Prints the figures of docs/in-plant.md: how well a damper is identified inside a plant.
+// Prints the figures of docs/in-plant-measured.md: how well a damper is identified inside a plant.
 //
 //   bench_in_plant grey train.csv     Noel and Schoukens' benchmark, its structure known
 //   bench_in_plant black train.csv    the same, no law named

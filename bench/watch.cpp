@@ -1,4 +1,4 @@
-// Prints the alarm rates of docs/in-plant.md: dampers that are watched over hundreds of days.
+// Prints the alarm rates of docs/watch.md: dampers that are watched over hundreds of days.
 //
 //   bench_watch days STORE HEALTHY FADED [CAR]  makes virtual days and estimates each (resumes)
 //   bench_watch rates STORE [CAR]               what the charts say of them

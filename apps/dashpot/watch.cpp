@@ -262,7 +262,7 @@ Command watch_command() {
           "model's; what is unknown of the plant, as its load, and the road are found anew on each "
           "day. The first days teach how much healthy days differ; from then on a chart per damper "
           "and quantity (a self-starting cumulative sum) raises an alarm when it has fallen. How "
-          "often healthy days raise any is stated, not hoped for. docs/in-plant.md has the rules.",
+          "often healthy days raise any is stated, not hoped for. docs/watch.md has the rules.",
       .options =
           {// The damper, the days, and the plant.
            {.names = "MODEL",
