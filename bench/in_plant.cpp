@@ -1,6 +1,7 @@
 // Prints the figures of docs/in-plant-measured.md: how well a damper is identified inside a plant.
 //
-//   bench_in_plant grey train.csv     Noel and Schoukens' benchmark, its structure known
+//   bench_in_plant grey train.csv     Noel and Schoukens' benchmark, its structure known; in the
+//                                     clone, whose examples/laws it reads
 //   bench_in_plant black train.csv    the same, no law named
 //   bench_in_plant car MODEL...       a virtual quarter car whose damper is of another structure
 //   bench_in_plant minute LAW...      the same over 60 s, three numbers of the plant unknown
@@ -29,8 +30,8 @@
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/law_list.h"
-#include "dashpot/machine/duhem_law.h"
 #include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/virtual_recording.h"
 #include "dashpot/numerics/filter.h"
@@ -147,25 +148,17 @@ double distance_to_published(const PlantRecording& recording, const InPlantRepor
 void run_benchmark(bool grey, const std::string& path) {
   const PlantRecording recording = read_plant_recording(path, {"excitation", "displacement"});
   InPlantOptions options = quiet_options();
-  const auto fixed = [](const char* name) {
-    return ParameterChoice{.law = {}, .parameter = name, .fixed = 0.0};
-  };
-  if (grey) {
-    // z = alpha A z_D maps the published equation onto the law: alpha A = alpha, gamma = beta gamma
-    // and beta = beta delta at nu = 1. Its delta is negative, which the law's equation allows and
-    // its table, made for dampers, does not: so the bounds are wider here.
-    options.choices = {fixed("c0"),
-                       fixed("k0"),
-                       {.law = {}, .parameter = "beta", .bounds = ParameterBounds{-1e13, 1e13}},
-                       {.law = {}, .parameter = "n", .free = true}};
-  } else {
-    options.choices = {fixed("c")};  // the plant has a dashpot
-  }
-  const InPlantReport report = identify_in_plant(grey ? find_law("bouc_wen") : duhem_law(),
-                                                 benchmark_setup(), {recording}, options);
+  if (!grey)  // the plant has a dashpot
+    options.choices = {{.law = {}, .parameter = "c", .fixed = 0.0}};
+  const auto law = load_law_text(std::string("examples/laws/") +
+                                 (grey ? "hardening_bouc_wen.yaml" : "duhem.yaml"));
+  const InPlantReport report =
+      identify_in_plant(law->law(), benchmark_setup(), {recording}, options);
   print_report(report);
   print_noise_and_model_error(report.traces.front());
   if (grey) {
+    // z = alpha A z_D maps the published equation onto the law: alpha A = alpha, gamma = beta gamma
+    // and beta = beta delta at nu = 1.
     fmt::print(
         "as published: alpha {:.6g} (5e4) N/m, beta gamma {:.6g} (800), beta delta {:.6g} "
         "(-1100) 1/m, nu {:.4g} (1)\n",

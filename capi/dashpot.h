@@ -363,11 +363,23 @@ DASHPOT_API dashpot_status dashpot_observe(const dashpot_model* model, const das
                                            const dashpot_monitor* monitor,
                                            dashpot_recordings** estimates, char** report);
 
-/// The damper in one strut of a plant, as "front", or those of one kind.
+/// The damper in one strut of a plant, as "front", or those of one kind; `strut` null: in every
+/// strut, where it is the only one.
 typedef struct {
   const char* strut;
   const dashpot_model* model;
 } dashpot_placed_model;
+
+/// A plant and its dampers in free run, on recordings that no fit has seen: `dashpot evaluate
+/// --in`. Options (null: none): {"steps": 0, "threads": 0}, steps of the integrator per sample.
+/// `runs` (null: not wanted): a recording for each ride, with every sensor as measured and as
+/// "NAME_modelled", and each damper's force, deflection and velocity. The report has the rms error
+/// of every sensor.
+DASHPOT_API dashpot_status dashpot_evaluate_in_plant(const dashpot_placed_model* dampers,
+                                                     size_t count, const dashpot_rides* rides,
+                                                     const char* plant, const char* options,
+                                                     const dashpot_monitor* monitor,
+                                                     dashpot_recordings** runs, char** report);
 
 /// dashpot_observe() where dampers are not alike: one in each strut, in any order.
 DASHPOT_API dashpot_status dashpot_observe_dampers(const dashpot_placed_model* dampers,

@@ -4,6 +4,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/machine/day_order.h"
+#include "dashpot/machine/evaluate_in_plant.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
@@ -109,10 +110,11 @@ PlacedModels in_each_strut(const dashpot_model* model, const InPlantSetup& setup
   return PlacedModels(setup.dampers(), model);
 }
 
-/// A model for each strut, by its name or that of its kind.
+/// A model for each strut, by its name or that of its kind; one without a name in all of them.
 PlacedModels by_struts(const dashpot_placed_model* dampers, size_t count,
                        const InPlantSetup& setup) {
   require(dampers, "dampers");
+  if (count == 1 && !dampers->strut) return in_each_strut(dampers->model, setup);
   require_setup(setup);
   const std::vector<std::string> struts = observer_names(setup).struts;
 
@@ -170,6 +172,26 @@ void observe_rides(const PlacedModels& models, const dashpot_rides* rides, InPla
     made->dataset.records.push_back(estimates_of(one));
   if (report) *report = copy_text(format_json(presentable(to_json(observed, setup))));
   *estimates = made.release();
+}
+
+void evaluate_rides(const PlacedModels& models, const dashpot_rides* rides, InPlantSetup setup,
+                    PlantEvaluationOptions options, const dashpot_monitor* monitor,
+                    dashpot_recordings** runs, char** report) {
+  const ObservedDampers dampers = placed(models, setup);
+  const std::vector<PlantRecording> recordings = recordings_of(rides, setup);
+  PlantEvaluation told;
+  run_watched(monitor, [&](const Monitor& watched) {
+    options.monitor = watched;
+    told = evaluate_in_plant(dampers, setup, recordings, options);
+  });
+
+  auto made = std::make_unique<dashpot_recordings>();
+  made->dataset.name = "in free run";
+  made->dataset.drive_unit = setup.drive_unit;
+  for (const InPlantTrace& trace : told.traces)
+    made->dataset.records.push_back(run_of(trace, setup));
+  *report = copy_text(format_json(presentable(to_json(told, setup))));
+  if (runs) *runs = made.release();
 }
 
 /// What the days of a state depend on, by name.
@@ -368,6 +390,21 @@ dashpot_status dashpot_observe_dampers(const dashpot_placed_model* dampers, size
     const PlacedModels models = by_struts(dampers, count, setup);
     observe_rides(models, rides, std::move(setup), read_observe_options(options), monitor,
                   estimates, report);
+  });
+}
+
+dashpot_status dashpot_evaluate_in_plant(const dashpot_placed_model* dampers, size_t count,
+                                         const dashpot_rides* rides, const char* plant,
+                                         const char* options, const dashpot_monitor* monitor,
+                                         dashpot_recordings** runs, char** report) {
+  return guarded([&] {
+    if (runs) *runs = nullptr;
+    require(report, "report");
+    *report = nullptr;
+    InPlantSetup setup = setup_of(plant);
+    const PlacedModels models = by_struts(dampers, count, setup);
+    evaluate_rides(models, rides, std::move(setup), read_plant_evaluation_options(options), monitor,
+                   runs, report);
   });
 }
 

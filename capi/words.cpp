@@ -226,6 +226,18 @@ InPlantWords read_in_plant_options(const char* text) {
   return out;
 }
 
+PlantEvaluationOptions read_plant_evaluation_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  PlantEvaluationOptions options;
+  const int steps = whole_int(reader, "steps", 0);
+  if (steps < 0) throw Error("options, steps", "is " + std::to_string(steps), "0 or more");
+  options.steps = static_cast<std::size_t>(steps);
+  options.threads = whole_int(reader, "threads", options.threads);
+  reader.finish();
+  return options;
+}
+
 ObserveOptions read_observe_options(const char* text) {
   const Value value = parse_options(text);
   ObjectReader reader(value, "the options");

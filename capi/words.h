@@ -4,6 +4,7 @@
 
 #include "dashpot/export.h"
 #include "dashpot/identify/fit/fit_words.h"
+#include "dashpot/machine/evaluate_in_plant.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/watch.h"
 #include "dashpot/vehicle.h"
@@ -61,6 +62,7 @@ struct InPlantWords {
 };
 InPlantWords read_in_plant_options(const char* text);
 ObserveOptions read_observe_options(const char* text);
+PlantEvaluationOptions read_plant_evaluation_options(const char* text);
 
 /// The options of dashpot_watch.
 struct WatchWords {

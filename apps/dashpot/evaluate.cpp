@@ -15,6 +15,7 @@
 #include "dashpot/report/words.h"
 #include "data.h"
 #include "document_text.h"
+#include "evaluate_in_plant.h"
 #include "results.h"
 #include "traces.h"
 #include "units.h"
@@ -23,7 +24,7 @@ namespace dashpot::cli {
 namespace {
 
 struct EvaluateSettings {
-  std::string model;
+  std::string model, plant;
   DataSettings data;
   std::string force_offset = "record";
   std::string outside_family = "mark";
@@ -39,7 +40,10 @@ constexpr std::string_view kEvaluateExample =
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/\n"
     "\n"
     "# The same figures for a script:\n"
-    "dashpot evaluate results/models/tanh_kwok.json more-recordings/ --json | jq .pooled.rmse_N";
+    "dashpot evaluate results/models/tanh_kwok.json more-recordings/ --json | jq .pooled.rmse_N\n"
+    "\n"
+    "# A damper and its car, as 'identify --in' found them, on other rides:\n"
+    "dashpot evaluate results/models/tanh_kwok.json rides/ --in results/plants/tanh_kwok.json";
 
 /// A ranking of this model alone, fitted elsewhere.
 Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& dataset,
@@ -86,6 +90,16 @@ void say_assumed_damper(const FamilyMember& own, const Dataset& dataset, Console
 }
 
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
+  if (!settings.plant.empty())
+    return run_evaluate_in_plant({.model = settings.model,
+                                  .plant = settings.plant,
+                                  .recordings = settings.data.paths,
+                                  .report = settings.report,
+                                  .traces = settings.traces,
+                                  .units = settings.units,
+                                  .folder = settings.folder,
+                                  .threads = settings.threads},
+                                 console);
   require_page(settings.report);
   const PrintUnits csv_units = file_units(settings.units);
   ModelFile file = load_model(settings.model);
@@ -168,16 +182,33 @@ Command evaluate_command() {
                   .description =
                       "Runs a model in free run over each recording (motion and current in, force "
                       "out) and prints its errors per record, pooled and by velocity. Says where "
-                      "the recordings leave the range that the model was fitted on.",
+                      "the recordings leave the range that the model was fitted on. With --in, the "
+                      "whole plant in free run: its inputs in, what its sensors show out.",
                   .options = {{.names = "MODEL",
                                .target = &settings->model,
-                               .help = "a model file that 'dashpot identify' wrote",
+                               .help = "a model file that 'dashpot identify' wrote; with --in, of "
+                                       "several dampers one for all, or one each by the names of "
+                                       "their struts: front=a.json,rear=b.json",
                                .takes = Takes::File,
                                .required = true}},
                   .example = std::string(kEvaluateExample),
                   .run = [settings](Console& console) { return run_evaluate(*settings, console); }};
 
   append(command.options, data_options(settings->data));
+  command.options.push_back(
+      {.names = "--in",
+       .target = &settings->plant,
+       .help = "DATA are of a plant in which the damper works: the plant with all its numbers "
+               "known, and its sensors, as a YAML file or words (docs/in-plant.md); 'identify "
+               "--in' writes what it found into plants/",
+       .value = "PLANT",
+       .takes = Takes::File,
+       .default_text = "a bench that measures the damper's force",
+       .idles = {{{"--dataset", "--no-recognise"}, "", "the plant says which channel is which"},
+                 {{"--velocity-cutoff", "--verbose", "--outside-family", "--force-offset",
+                   "--keep-inertia"},
+                  "",
+                  "leave it out: no force is measured"}}});
 
   // The limits of the model's family, and the treatment of the force zero.
   append(

@@ -9,6 +9,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "plant_advice_section.h"
+#include "sensor_figure.h"
 #include "stated_plant_section.h"
 
 namespace dashpot::cli {
@@ -127,53 +128,12 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
   return lines;
 }
 
-DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& setup) {
-  constexpr std::size_t kMostShown = 1500;
-  DocumentFigure figure{.name = "sensors",
-                        .title = "Sensors",
-                        .caption = "Measured and modelled, at the end of the first recording.",
-                        .panels = {}};
-  const InPlantTrace& trace = report.traces.front();
-  const std::size_t count = trace.dampers.front().force.size();
-  const std::size_t first = count > kMostShown ? count - kMostShown : 0;
-  if (!report.road_measured) {
-    figure.title = "Damper";
-    figure.caption = "The damper as it was observed, at the end of what was fitted of a recording.";
-  }
-  for (std::size_t s = 0; s < trace.modelled.size(); ++s) {
-    FigurePanel panel{.title = setup.sensors[s].channel,
-                      .x_label = "time, s",
-                      .y_label = setup.sensors[s].channel + ", " + report.sensors[s].unit,
-                      .series = {},
-                      .reads_along_x = true};
-    FigureSeries measured{.label = "measured", .colour = "measured"};
-    FigureSeries modelled{.label = "modelled", .colour = "modelled"};
-    for (std::size_t k = first; k < count; ++k) {
-      measured.x.push_back(trace.sample_time * static_cast<double>(k));
-      measured.y.push_back(trace.measured[s][k]);
-      modelled.y.push_back(trace.modelled[s][k]);
-    }
-    modelled.x = measured.x;
-    panel.series = {std::move(measured), std::move(modelled)};
-    figure.panels.push_back(std::move(panel));
-  }
-
-  // The virtual load cells: what no sensor measures.
-  for (const DamperTrace& damper : trace.dampers) {
-    const std::string place = trace.dampers.size() > 1 ? " at " + damper.strut : "";
-    FigurePanel panel{.title = "force of the damper" + place +
-                               (report.road_measured ? ", modelled" : ", observed"),
-                      .x_label = "deflection, m",
-                      .y_label = "force, N",
-                      .series = {}};
-    FigureSeries loop{.label = "modelled", .colour = "modelled"};
-    for (std::size_t k = first; k < count; ++k) {
-      loop.x.push_back(damper.deflection[k]);
-      loop.y.push_back(damper.force[k]);
-    }
-    panel.series = {std::move(loop)};
-    figure.panels.push_back(std::move(panel));
-  }
+/// The sensors of the first recording; where nothing measures the road what was observed.
+DocumentFigure first_recording(const InPlantReport& report) {
+  if (report.road_measured) return sensor_figure(report.traces.front(), report.sensors);
+  DocumentFigure figure = sensor_figure(report.traces.front(), report.sensors, "observed");
+  figure.title = "Damper";
+  figure.caption = "The damper as it was observed, at the end of what was fitted of a recording.";
   return figure;
 }
 
@@ -289,7 +249,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
     if (best.report.road_measured && !best.report.nuisances.empty())
       section.tables.back().audience = Audience::Files;
     add_advice(best.report.advice, section);
-    section.figures.insert(section.figures.begin(), sensor_figure(best.report, setup));
+    section.figures.insert(section.figures.begin(), first_recording(best.report));
     section.remarks = knowable_lines(best.report);
     if (!left_out.empty()) section.remarks.push_back(left_out);
     document.sections.push_back(std::move(section));

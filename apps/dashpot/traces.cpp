@@ -30,13 +30,11 @@ Option traces_option(std::string& format) {
           .choices = {"csv", "mat", "raw"}};
 }
 
-std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit drive_unit,
-                         const std::string& format, const PrintUnits& units,
-                         const std::filesystem::path& folder) {
-  const std::vector<Record> records = traces(results, drive_unit);
+void write_records(const std::vector<Record>& records, const std::string& format,
+                   const PrintUnits& units, const std::filesystem::path& folder) {
   if (format == "raw") {
     write_sample_columns(records, folder);
-    return records.size();
+    return;
   }
 
   // The place among the records keeps names apart that files cannot tell apart.
@@ -48,6 +46,13 @@ std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit dri
     else
       save_csv(records[k], file, units);
   }
+}
+
+std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit drive_unit,
+                         const std::string& format, const PrintUnits& units,
+                         const std::filesystem::path& folder) {
+  const std::vector<Record> records = traces(results, drive_unit);
+  write_records(records, format, units, folder);
   return records.size();
 }
 

@@ -129,6 +129,25 @@ TEST_CASE("dampers inside a plant: the force of each is observed by its strut's 
     CHECK(error < 0.01 * size);
   }
 
+  // In free run, with one model for both: the noise of the sensors is left, and forces are there.
+  const dashpot_placed_model both = {nullptr, model};
+  Recordings runs;
+  Text judged;
+  REQUIRE(dashpot_evaluate_in_plant(&both, 1, rides, kTwoDampers, R"({"steps": 8})", nullptr, &runs,
+                                    &judged) == DASHPOT_OK);
+  const dashpot::Value told = dashpot::parse_json(judged.handle, "report");
+  CHECK(told.find("steps_per_sample")->as_number() == 8);
+  for (const dashpot::Value& sensor : told.find("sensors")->items())
+    CHECK(sensor.find("error")->as_number() < 0.2 * sensor.find("rms")->as_number());
+  dashpot_channel measured, modelled;
+  REQUIRE(dashpot_recordings_channel(runs, 0, 0, &measured) == DASHPOT_OK);
+  REQUIRE(dashpot_recordings_channel(runs, 0, 1, &modelled) == DASHPOT_OK);
+  CHECK(std::string(modelled.name) == std::string(measured.name) + "_modelled");
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
+                            dashpot_evaluate_in_plant(&both, 1, rides, kTwoDampers,
+                                                      R"({"steps": -1})", nullptr, &runs, &judged)),
+                 "options, steps"));
+
   // A model for each, in any order, tells the same.
   const dashpot_placed_model each[] = {{"high", model}, {"low", model}};
   Recordings placed;

@@ -92,6 +92,11 @@ std::map<std::string, Call> null_calls() {
          return dashpot_observe_dampers(nullptr, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
                                         nullptr);
        }},
+      {"evaluate_in_plant",
+       [] {
+         return dashpot_evaluate_in_plant(nullptr, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                          nullptr);
+       }},
       {"watch", [] { return dashpot_watch(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr); }},
       {"watch_dampers",
        [] {

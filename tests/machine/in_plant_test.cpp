@@ -4,10 +4,10 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
-#include "dashpot/machine/duhem_law.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/virtual_recording.h"
@@ -203,9 +203,9 @@ TEST_CASE("in plant: what runs away has no residuals, however finite its numbers
   InPlantSetup setup = oscillator_setup();
   const PlantCases cases = make_cases(setup, {short_recording()}, 1, PlantMethod::StraightForce);
   const auto has_residuals = [&](double damping) {
-    const LawModel damper =
-        LawModel::constant(find_law("bingham"), std::vector{damping, 3.0, 0.0, 0.01});
-    const PlantResiduals residuals(setup, cases, damper, {2}, {});
+    const auto damper = std::make_shared<LawModel>(
+        LawModel::constant(find_law("bingham"), std::vector{damping, 3.0, 0.0, 0.01}));
+    const PlantResiduals residuals(setup, cases, {damper}, {2}, {});
     const LeastSquaresProblem problem = residuals.problem();
     std::vector<double> r(problem.residuals);
     const bool has = problem.residual(residuals.start({2}), r);
@@ -518,11 +518,8 @@ TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
   setup.held_back = 0.2;
   setup.skip = 0.05;
   InPlantOptions options{.starts = 4, .grade = ""};
-  options.choices = {{.law = {}, .parameter = "c0", .fixed = 0.0},
-                     {.law = {}, .parameter = "k0", .fixed = 0.0},
-                     {.law = {}, .parameter = "beta", .bounds = ParameterBounds{-1e13, 1e13}},
-                     {.law = {}, .parameter = "n", .free = true}};
-  const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, {recording}, options);
+  const auto hardening = load_law_text(project_file("examples/laws/hardening_bouc_wen.yaml"));
+  const InPlantReport report = identify_in_plant(hardening->law(), setup, {recording}, options);
   REQUIRE(report.has_models());
   CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.001, 0);
   CHECK_CLOSE(named(report.plant, "damping").value, 10, 0.01, 0);
@@ -534,7 +531,8 @@ TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
 
   // Without the law's name: the rms over the noise grows by less than 1e-6 m does.
   options.choices = {{.law = {}, .parameter = "c", .fixed = 0.0}};
-  const InPlantReport black = identify_in_plant(duhem_law(), setup, {recording}, options);
+  const auto duhem = load_law_text(project_file("examples/laws/duhem.yaml"));
+  const InPlantReport black = identify_in_plant(duhem->law(), setup, {recording}, options);
   REQUIRE(black.has_models());
   CHECK(black.sensors[0].held_back < 7.5e-6);
 }

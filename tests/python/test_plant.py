@@ -54,6 +54,14 @@ class InsideAPlant(InFolder):
         with self.assertRaises(KeyError):
             seen["damper_farce"]
 
+        # In free run, the fit leaves what it left where it was fitted, to the time that it held back.
+        run = dashpot.evaluate_in_plant(fit.model, self.table(), fit.plant)
+        sensor = fit.report["sensors"][0]
+        self.assertAlmostEqual(run.error(sensor["sensor"]) / sensor["error_fitted"], 1, delta=0.3)
+        self.assertIn("damper_force [N]", run.rides[0]["columns"])
+        with self.assertRaises(KeyError):
+            run.error("a sensor that is not there")
+
     def test_watched(self):
         def day(seed, *wear):
             words = ["--damper", "kwok2006", "--true", "mass=100kg", "--duration", "4", "--push", "800"]

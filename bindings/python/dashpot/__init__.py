@@ -13,7 +13,7 @@ from ._core import DamperModel, Error, NotUsable, __version__
 from ._identify import Ranking, identify
 from ._learn import Identifier
 from ._looks import characterise, compare
-from ._plant import Observation, PlantFit, Watch, identify_in_plant, observe, watch
+from ._plant import Observation, PlantFit, PlantRun, Watch, evaluate_in_plant, identify_in_plant, observe, watch
 from ._recordings import Recordings
 from ._simulate import Trace, simulate
 
@@ -27,12 +27,14 @@ __all__ = [
     "NotUsable",
     "Observation",
     "PlantFit",
+    "PlantRun",
     "Ranking",
     "Recordings",
     "Trace",
     "__version__",
     "characterise",
     "compare",
+    "evaluate_in_plant",
     "identify",
     "identify_in_plant",
     "load",

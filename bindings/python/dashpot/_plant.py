@@ -130,6 +130,57 @@ def identify_in_plant(
     return PlantFit(found, json.loads(report))
 
 
+class PlantRun:
+    """A plant in free run beside its recordings: a table per ride, and the report of `dashpot evaluate --in --json`."""
+
+    def __init__(self, core: _core._Recordings, report: dict):
+        self.report = report
+        self.rides: List[dict] = [core.record(place) for place in range(len(core))]
+
+    def __len__(self) -> int:
+        return len(self.rides)
+
+    def error(self, sensor: str, ride: int = 0) -> float:
+        """The rms error of a sensor in a ride, SI, after its offset; infinite where the plant diverges."""
+        sensors = self.report["sensors"]
+        of_ride = sensors[ride * len(sensors) // len(self) : (ride + 1) * len(sensors) // len(self)]
+        for one in of_ride:
+            if one["sensor"] == sensor:
+                return float(one["error"])
+        raise KeyError(f"{sensor!r}; known: {', '.join(one['sensor'] for one in of_ride)}")
+
+    def frame(self, ride: int = 0):
+        """A ride as a DataFrame (pandas), its columns named with their units: each sensor, and NAME_modelled."""
+        import pandas
+
+        return pandas.DataFrame(self.rides[ride]["columns"], copy=False)
+
+
+def evaluate_in_plant(
+    model: Dampers,
+    rides,
+    plant: Plant,
+    *,
+    sample_time: float = 0,
+    steps: int = 0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> PlantRun:
+    """What `dashpot evaluate --in` does: plant and dampers run free over rides that no fit has seen.
+
+    model, rides, plant, sample_time: as of observe(); the road must be measured. Found are the sensors' offsets and,
+    unless the plant says "start: rest", where it is at the beginnings; nothing else. steps: of the integrator per
+    sample, 0: as many as its error asks for.
+
+    Raises Error at what cannot be used.
+    """
+    options = {"steps": steps, "threads": threads}
+    core, report = _core.evaluate_in_plant(
+        _dampers(model), _rides(rides, sample_time), _plant(plant), as_json(options), progress
+    )
+    return PlantRun(core, json.loads(report))
+
+
 class Observation:
     """What no sensor showed: a table per ride, and the report of `dashpot observe --json`."""
 

@@ -323,6 +323,7 @@ PYBIND11_MODULE(_core, module) {
       .def("load", &Rides::load)
       .def("add", &Rides::add);
   module.def("identify_in_plant", &identify_in_plant);
+  module.def("evaluate_in_plant", &evaluate_in_plant);
   module.def("observe", &observe);
   module.def("watch", &watch);
   module.def("understand_column", &understand_column);

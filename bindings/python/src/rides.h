@@ -51,7 +51,7 @@ class PlacedModels {
  public:
   explicit PlacedModels(const py::object& given) {
     if (!py::isinstance<py::dict>(given)) {
-      for_all_ = py::cast<const Model&>(given).get();
+      dampers_ = {{nullptr, py::cast<const Model&>(given).get()}};
       return;
     }
     for (const auto& [strut, model] : py::cast<py::dict>(given))
@@ -59,13 +59,11 @@ class PlacedModels {
     for (const auto& [strut, model] : placed_) dampers_.push_back({strut.c_str(), model});
   }
 
-  const dashpot_model* for_all() const { return for_all_; }
   /// For a function of C: its dampers with their count.
   const dashpot_placed_model* data() const { return dampers_.data(); }
   size_t size() const { return dampers_.size(); }
 
  private:
-  const dashpot_model* for_all_ = nullptr;
   std::vector<std::pair<std::string, const dashpot_model*>> placed_;
   std::vector<dashpot_placed_model> dampers_;
 };
@@ -77,13 +75,23 @@ inline py::tuple observe(const py::object& dampers, const Rides& rides, const st
   Recordings estimates;
   Text report;
   Watched(std::move(progress)).run([&](const dashpot_monitor* monitor) {
-    return placed.for_all()
-               ? dashpot_observe(placed.for_all(), rides.get(), plant.c_str(), options.c_str(),
-                                 monitor, estimates.out(), report.out())
-               : dashpot_observe_dampers(placed.data(), placed.size(), rides.get(), plant.c_str(),
-                                         options.c_str(), monitor, estimates.out(), report.out());
+    return dashpot_observe_dampers(placed.data(), placed.size(), rides.get(), plant.c_str(),
+                                   options.c_str(), monitor, estimates.out(), report.out());
   });
   return py::make_tuple(std::move(estimates), report.take());
+}
+
+inline py::tuple evaluate_in_plant(const py::object& dampers, const Rides& rides,
+                                   const std::string& plant, const std::string& options,
+                                   py::object progress) {
+  const PlacedModels placed(dampers);
+  Recordings runs;
+  Text report;
+  Watched(std::move(progress)).run([&](const dashpot_monitor* monitor) {
+    return dashpot_evaluate_in_plant(placed.data(), placed.size(), rides.get(), plant.c_str(),
+                                     options.c_str(), monitor, runs.out(), report.out());
+  });
+  return py::make_tuple(std::move(runs), report.take());
 }
 
 inline std::string watch(const py::object& dampers, const Rides& rides, const std::string& plant,
@@ -91,11 +99,8 @@ inline std::string watch(const py::object& dampers, const Rides& rides, const st
   const PlacedModels placed(dampers);
   Text report;
   Watched(std::move(progress)).run([&](const dashpot_monitor* monitor) {
-    return placed.for_all()
-               ? dashpot_watch(placed.for_all(), rides.get(), plant.c_str(), options.c_str(),
-                               monitor, report.out())
-               : dashpot_watch_dampers(placed.data(), placed.size(), rides.get(), plant.c_str(),
-                                       options.c_str(), monitor, report.out());
+    return dashpot_watch_dampers(placed.data(), placed.size(), rides.get(), plant.c_str(),
+                                 options.c_str(), monitor, report.out());
   });
   return report.take();
 }

@@ -116,6 +116,50 @@ ModelFile found_damper(const FoundDamper& damper, const InPlantReport& report,
   return file;
 }
 
+Value to_json(const PlantEvaluation& evaluation, const InPlantSetup& setup) {
+  Value sensors = Value::array();
+  for (const SensorFigures& s : evaluation.sensors)
+    sensors.push_back(Value::object({{"recording", s.recording},
+                                     {"sensor", s.channel},
+                                     {"unit", s.unit},
+                                     {"rms", s.rms},
+                                     {"error", any_number(s.training)},
+                                     {"offset", any_number(s.offset)}}));
+  return Value::object({{"plant", setup.model->name},
+                        {"sensors", std::move(sensors)},
+                        {"steps_per_sample", evaluation.steps},
+                        {"step_error", any_number(evaluation.step_error)},
+                        {"warnings", Value::array(evaluation.warnings)}});
+}
+
+Record run_of(const InPlantTrace& trace, const InPlantSetup& setup) {
+  Record record;
+  record.name = trace.recording;
+  record.sample_time = trace.sample_time;
+  for (std::size_t k = 0; k < trace.measured.front().size(); ++k)
+    record.time.push_back(trace.sample_time * static_cast<double>(k));
+  const auto add = [&](std::string name, std::string unit, const std::vector<double>& samples) {
+    record.channels.push_back(
+        {.name = std::move(name), .unit = std::move(unit), .samples = samples, .origin = {}});
+  };
+
+  // The sensors, then what no sensor shows.
+  const Plant plant = make_plant(*setup.model, setup.known);
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    const PlantSensor& sensor = setup.sensors[s];
+    const std::string unit = unit_of(sensor.place, plant);
+    add(sensor.channel, unit, trace.measured[s]);
+    add(sensor.channel + "_modelled", unit, trace.modelled[s]);
+  }
+  for (const DamperTrace& damper : trace.dampers) {
+    const std::string own = trace.dampers.size() > 1 ? damper.strut + "_damper_" : "damper_";
+    add(own + "force", "N", damper.force);
+    add(own + "deflection", "m", damper.deflection);
+    add(own + "velocity", "m/s", damper.velocity);
+  }
+  return record;
+}
+
 Value to_json(const ObserveReport& report, const InPlantSetup& setup) {
   Value recordings = Value::array(), errors = Value::array(), origins = Value::array();
 

@@ -97,6 +97,14 @@ void require_known_lags(const InPlantSetup& setup) {
           "its value: 'dashpot identify --in' writes it into plants/");
 }
 
+void require_known(const InPlantSetup& setup) {
+  if (!setup.unknown.empty())
+    throw Error("plant, " + setup.unknown.front().name, "is unknown",
+                "its value: 'dashpot identify --in' writes the plant as it was found into "
+                "plants/");
+  require_known_lags(setup);
+}
+
 void require_alike(const InPlantSetup& setup, const std::string& who) {
   if (setup.kinds.size() > 1)
     throw Error("plant, damper_kinds",

@@ -156,6 +156,9 @@ void require_one_damper(const InPlantSetup& setup, const std::string& who);
 /// For what cannot find a sensor's delay or the cut-off of its filter. Throws Error "its delay is
 /// unknown".
 void require_known_lags(const InPlantSetup& setup);
+/// For what finds nothing of the plant and its sensors. Throws Error where a number, a delay or a
+/// cut-off is unknown.
+void require_known(const InPlantSetup& setup);
 /// For what knows dampers that are all alike. Throws Error "has dampers of 2 kinds, ...".
 void require_alike(const InPlantSetup& setup, const std::string& who);
 /// The dampers of this name: that in a strut, or those of a kind; none where there is none.

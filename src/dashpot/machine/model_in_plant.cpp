@@ -164,7 +164,7 @@ Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round&
                   const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
                   const DataScale& scale, const PlantCases& cases, const InPlantOptions& options) {
   Round now;
-  const PlantResiduals residuals(setup, cases, *damper, before.plant, scale);
+  const PlantResiduals residuals(setup, cases, {damper}, before.plant, scale);
   const LeastSquaresReport solved = plant_anew(setup, options, residuals, before);
   if (!std::isfinite(solved.cost)) {
     now.report.message = "the plant diverges with what was learnt: " + solved.message;

@@ -11,8 +11,8 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/beyond_models.h"
 #include "dashpot/machine/damper_drive.h"
 #include "dashpot/machine/recording_parts.h"
 #include "dashpot/machine/sensor_faults.h"
@@ -321,17 +321,12 @@ LikelyNoise with_shift(const NoiseSearch& search, const LikelyNoise& without,
   return with.misfit < without.misfit - worth ? with : without;
 }
 
-/// Where dampers went, for more than a peak or two, or were driven beyond what their models were
-/// fitted on.
-std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InPlantSetup& setup,
-                                       const std::vector<ObservedSamples>& samples,
-                                       const ObserveReport& report) {
+/// How the dampers were observed to move, once the filter had settled.
+DamperMotions motions_of(const std::vector<ObservedSamples>& samples, const ObserveReport& report) {
   constexpr double kSettled = 1;  // s, in which the filter settles
-  constexpr double kFew = 0.01;   // of the samples: a peak or two
-  const std::size_t count = dampers.size();
-  std::vector<std::string> beyond;
-  for (std::size_t d = 0; d < count; ++d) {
-    std::vector<std::vector<DamperInput>> motions;
+  const std::size_t count = report.struts.size();
+  DamperMotions motions(count);
+  for (std::size_t d = 0; d < count; ++d)
     for (std::size_t r = 0; r < samples.size(); ++r) {
       const ObservedRecording& told = report.recordings[r];
       const DamperQuantities places = damper_quantities(d, count);
@@ -339,19 +334,11 @@ std::vector<std::string> beyond_models(const ObservedDampers& dampers, const InP
             &velocity = told.quantities[places.velocity].value;
       const std::size_t first =
           std::min(samples[r].count / 2, static_cast<std::size_t>(kSettled / told.sample_time));
-      std::vector<DamperInput>& motion = motions.emplace_back();
+      std::vector<DamperInput>& motion = motions[d].emplace_back();
       for (std::size_t k = first; k < samples[r].count; ++k)
         motion.push_back({deflection[k], velocity[k], samples[r].drive_at(k, d)});
     }
-
-    // A model whose file states no motion, as a published one, has no range of it.
-    const std::string where = count > 1 ? report.struts[d] + ": " : "";
-    for (const Extrapolation& e :
-         extrapolations(*dampers[d].model, dampers[d].domain, setup.drive_unit, motions))
-      if (e.quantity == drive_channel(setup.drive_unit) || (e.high > e.low && e.share > kFew))
-        beyond.push_back(where + describe(e));
-  }
-  return beyond;
+  return motions;
 }
 
 /// Whether the force leaps at some drive where the stroke crosses 0, while nothing moves.
@@ -684,7 +671,7 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   const bool leaps = std::ranges::any_of(
       dampers, [&](const ObservedDamper& one) { return leaps_at_zero(one, scale); });
   std::ranges::move(far_zeros(setup, scale, leaps, report), std::back_inserter(report.warnings));
-  std::ranges::move(beyond_models(dampers, setup, samples, report),
+  std::ranges::move(beyond_models(dampers, setup, motions_of(samples, report)),
                     std::back_inserter(report.warnings));
   if (std::ranges::none_of(setup.sensors, [](const PlantSensor& one) { return one.noise > 0; }))
     report.warnings.push_back(

@@ -210,11 +210,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
                                const std::vector<std::shared_ptr<const DamperModel>>& dampers,
                                const ObserverNoise& noise, const ObserverScale& scale,
                                double sample_time, int steps) {
-  if (!setup.unknown.empty())
-    throw Error("plant, " + setup.unknown.front().name, "is unknown",
-                "its value: 'dashpot identify --in' writes the plant as it was found into "
-                "plants/");
-  require_known_lags(setup);
+  require_known(setup);
   const std::vector<PlantInputChannel> inputs = in_order(setup);
   std::vector<PlantInputPlace> places;
   for (const PlantInputChannel& input : inputs) places.push_back(input.place);

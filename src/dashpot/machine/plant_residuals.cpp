@@ -51,17 +51,18 @@ bool is_far(std::span<const double> errors, std::span<const double> measured, do
 PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
                                const DamperUnknowns& law, const std::vector<double>& plant,
                                const DataScale& scale)
-    : PlantResiduals(setup, cases, &law, nullptr, plant, scale) {}
+    : PlantResiduals(setup, cases, &law, {}, plant, scale) {}
 
 PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
-                               const DamperModel& held, const std::vector<double>& plant,
-                               const DataScale& scale)
-    : PlantResiduals(setup, cases, nullptr, &held, plant, scale) {}
-
-PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
-                               const DamperUnknowns* law, const DamperModel* held,
+                               std::vector<std::shared_ptr<const DamperModel>> held,
                                const std::vector<double>& plant, const DataScale& scale)
-    : setup_(&setup), cases_(&cases), law_(law), held_(held) {
+    : PlantResiduals(setup, cases, nullptr, std::move(held), plant, scale) {}
+
+PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
+                               const DamperUnknowns* law,
+                               std::vector<std::shared_ptr<const DamperModel>> held,
+                               const std::vector<double>& plant, const DataScale& scale)
+    : setup_(&setup), cases_(&cases), law_(law), held_(std::move(held)) {
   if (law) law_states_ = law->models(law->start()).front().law().states;
   for (const PlantInputChannel& input : setup.inputs) inputs_.push_back(input.place);
   for (const PlantSensor& sensor : setup.sensors) sensors_.push_back(sensor.place);
@@ -171,11 +172,9 @@ PlantResiduals::Dampers PlantResiduals::placed(
 }
 
 PlantResiduals::Dampers PlantResiduals::dampers(std::span<const double> x) const {
+  if (!law_) return placed(held_);
   std::vector<std::shared_ptr<const DamperModel>> kinds;
-  if (law_)
-    for (LawModel& law : laws(x)) kinds.push_back(std::make_shared<LawModel>(std::move(law)));
-  else  // owned by the caller
-    kinds.assign(setup_->kinds.size(), {std::shared_ptr<const DamperModel>(), held_});
+  for (LawModel& law : laws(x)) kinds.push_back(std::make_shared<LawModel>(std::move(law)));
   return placed(std::move(kinds));
 }
 
@@ -745,7 +744,8 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
       const std::span<const double> fitted = all.subspan(one.first, one.training - one.first);
       figure.offset = mean_of(fitted);
       figure.rms = rms_about(one.measured[s], mean_of(one.measured[s]));
-      figure.training = rms_about(fitted, figure.offset);
+      figure.training =
+          finite || one.training < count ? rms_about(fitted, figure.offset) : kUnbounded;
       figure.held_back = std::numeric_limits<double>::quiet_NaN();
       if (one.training < count)
         figure.held_back =

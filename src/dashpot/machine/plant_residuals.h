@@ -21,7 +21,7 @@ namespace dashpot {
 /// What the sensors of a plant would show less what they did show, over their scale, as a function
 /// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
 /// delays and cut-offs. The law is that of every damper in the plant, with numbers of its own in
-/// each kind. A model may stand in the law's place, held as it is: then the dampers have no
+/// each kind. Models may stand in the law's place, held as they are: then the dampers have no
 /// unknowns, and their states begin at rest. All that it is made from must outlive it.
 class PlantResiduals : public InPlantUnknowns {
  public:
@@ -30,7 +30,9 @@ class PlantResiduals : public InPlantUnknowns {
   /// plant: where the plant's unknowns start, SI; scale: of the damper's motion.
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperUnknowns& law,
                  const std::vector<double>& plant, const DataScale& scale);
-  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperModel& held,
+  /// held: of each kind of damper one.
+  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
+                 std::vector<std::shared_ptr<const DamperModel>> held,
                  const std::vector<double>& plant, const DataScale& scale);
 
   /// Whether unknown k acts on this recording: a state at a beginning does so on its own alone.
@@ -91,7 +93,8 @@ class PlantResiduals : public InPlantUnknowns {
 
  private:
   PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const DamperUnknowns* law,
-                 const DamperModel* held, const std::vector<double>& plant, const DataScale& scale);
+                 std::vector<std::shared_ptr<const DamperModel>> held,
+                 const std::vector<double>& plant, const DataScale& scale);
   /// Dampers, of each kind one, and in each strut the one of its kind.
   struct Dampers {
     std::vector<std::shared_ptr<const DamperModel>> kinds;
@@ -147,8 +150,8 @@ class PlantResiduals : public InPlantUnknowns {
 
   const InPlantSetup* setup_;
   const PlantCases* cases_;
-  const DamperUnknowns* law_;  ///< null: `held_` is the damper
-  const DamperModel* held_;    ///< null: the law is
+  const DamperUnknowns* law_;                             ///< null: `held_` are the dampers
+  std::vector<std::shared_ptr<const DamperModel>> held_;  ///< of each kind; empty: the law is
   std::span<const StateInfo> law_states_;
   std::vector<PlantInputPlace> inputs_;
   std::vector<PlantSensorPlace> sensors_;

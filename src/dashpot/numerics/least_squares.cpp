@@ -12,6 +12,7 @@
 #include <ceres/ceres.h>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/numerics/ceres_ending.h"
 #include "dashpot/numerics/quiet_ceres.h"
 
 namespace dashpot {
@@ -183,7 +184,7 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
 
   // Ceres counts the evaluation at the start as an iteration; the report does not.
   report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.message = summary.message;
+  report.message = ceres_ending(summary.termination_type, summary.message);
   report.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
 }
 

@@ -5,6 +5,7 @@
 
 #include <ceres/ceres.h>
 
+#include "dashpot/numerics/ceres_ending.h"
 #include "dashpot/numerics/quiet_ceres.h"
 
 namespace dashpot {
@@ -86,7 +87,7 @@ MinimiseReport minimise(const SmoothFunction& function, std::vector<double> star
 
   // Its list of iterations holds the evaluation at the start too, which is none.
   report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.message = summary.message;
+  report.message = ceres_ending(summary.termination_type, summary.message);
   report.iterations = static_cast<int>(summary.iterations.size()) - 1;
   report.value = summary.final_cost;
   return report;

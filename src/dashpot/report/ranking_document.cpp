@@ -170,10 +170,8 @@ DocumentSection closer_section(const ReportInput& input, std::vector<SharedSampl
 std::vector<std::string> warnings_of(const RankedModel& model,
                                      const std::vector<std::string>& folds) {
   const auto complaint = [](const FitReport& fit) {
-    return std::string(fit.status == FitReport::Status::Failed
-                           ? "the fit failed. "
-                           : "the fit stopped at its iteration limit. ") +
-           fit.message;
+    return fit.status == FitReport::Status::Failed ? "the fit failed: " + fit.message
+                                                   : "the fit stopped at its iteration limit";
   };
 
   // The final fit, then those of the folds.
