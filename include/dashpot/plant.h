@@ -118,7 +118,8 @@ struct PlantSet {
 std::vector<std::string> plant_set_names();
 
 /// The text of such a file: a kind of plant and its parameters ("sprung_mass": "387 kg"), or
-/// matrices of its own. `values` replace parameters. `source` stands in messages.
+/// matrices of its own; or of a file of 'identify --in' (docs/in-plant.md), whose numbers are all
+/// known or found. `values` replace parameters. `source` stands in messages.
 PlantSet parse_plant_set(std::string_view text, const std::string& source, const std::string& name,
                          const NamedValues& values = {});
 

@@ -151,6 +151,37 @@ TEST_CASE("a plant that cannot be is refused, with what would be right") {
         "my.json: a plant needs 'source', 'verified', 'reason', 'plant', 'parameters'");
 }
 
+TEST_CASE("a plant with its sensors is a plant, once all of its numbers are known or found") {
+  const auto file = [](const std::string& tyre) {
+    return R"({"plant": "quarter_car", "parameters": {"unsprung_mass": "40 kg",
+      "spring_stiffness": 20000, "sprung_mass": {"found": 377, "low": 374, "high": 380},
+      "tyre_stiffness": )" +
+           tyre + R"(}, "inputs": [{"channel": "road", "kind": "ground"}],
+      "sensors": [{"channel": "a", "quantity": "acceleration", "at": "body"}]})";
+  };
+  const PlantSet found = parse_plant_set(file("200000"), "found.json", "found");
+  const Plant same = make_plant(find_plant_model("quarter_car"), {{"unsprung_mass", 40},
+                                                                  {"spring_stiffness", 20000},
+                                                                  {"sprung_mass", 377},
+                                                                  {"tyre_stiffness", 200000}});
+  CHECK(found.plant.mass == same.mass);
+  CHECK(found.plant.stiffness == same.stiffness);
+  CHECK(found.kind == "quarter_car");
+
+  // The same as YAML, one number set otherwise, and what nobody knows.
+  const PlantSet stated = parse_plant_set(
+      "plant: quarter_car\n"
+      "parameters: {unsprung_mass: 40 kg, spring_stiffness: 20 N/mm, sprung_mass: 300 kg, "
+      "tyre_stiffness: 200 kN/m}\n"
+      "inputs: [{channel: road, kind: ground}]\n",
+      "car.yaml", "car", {{"sprung_mass", 377}});
+  CHECK(stated.plant.mass == same.mass);
+  for (const std::string unknown : {R"("unknown")", R"({"about": 200000})"})
+    CHECK(message_of([&] { parse_plant_set(file(unknown), "found.json", "found"); }) ==
+          "found.json, parameters.tyre_stiffness: 'tyre_stiffness' is unknown; its value: "
+          "'dashpot identify --in' writes the plant as it was found into plants/");
+}
+
 TEST_CASE("a plant's file that states some numbers states all: none is another vehicle's") {
   const auto made = [](const std::string& parameters, const NamedValues& changes = {}) {
     return message_of([&] {

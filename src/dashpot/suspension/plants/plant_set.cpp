@@ -26,14 +26,35 @@ void require_stated(const PlantModel& model, const NamedValues& stated, const st
               "state all that it has, or {} for the numbers of the table");
 }
 
+double read_parameter(const ParameterRow& row, const Value& value) {
+  return value.kind() == Value::Kind::Number ? checked(row, value.as_number(), value.where())
+                                             : parse_value(row, value.as_string(), value.where());
+}
+
 NamedValues read_parameters(const PlantModel& model, const Value& parameters) {
   NamedValues values;
+  for (const auto& [name, value] : parameters.members())
+    values.emplace_back(
+        name,
+        read_parameter(
+            model.parameters[row_named(model.parameters, name, model.name, value.where())], value));
+  return values;
+}
+
+/// Those of a plant with its sensors: known, or found by a fit.
+NamedValues read_found_parameters(const PlantModel& model, const Value& parameters) {
+  NamedValues values;
   for (const auto& [name, value] : parameters.members()) {
-    const ParameterRow& row =
-        model.parameters[row_named(model.parameters, name, model.name, value.where())];
-    values.emplace_back(name, value.kind() == Value::Kind::Number
-                                  ? checked(row, value.as_number(), value.where())
-                                  : parse_value(row, value.as_string(), value.where()));
+    const bool is_object = value.kind() == Value::Kind::Object;
+    const Value* found = is_object ? value.find("found") : &value;
+    if (!found || (found->kind() == Value::Kind::String && found->as_string() == "unknown"))
+      throw Error(value.where(), "'" + name + "' is unknown",
+                  "its value: 'dashpot identify --in' writes the plant as it was found into "
+                  "plants/");
+    values.emplace_back(
+        name, read_parameter(
+                  model.parameters[row_named(model.parameters, name, model.name, value.where())],
+                  *found));
   }
   return values;
 }
@@ -101,6 +122,40 @@ Plant from_matrices(const Value& value) {
   return plant;
 }
 
+constexpr const char* kWithSensors = "a plant with its sensors";
+
+/// A file of `identify --in`, of which the plant alone is taken.
+PlantSet from_plant_with_sensors(const Value& document, const std::string& source,
+                                 const std::string& name, const NamedValues& values) {
+  const Value& kind = *document.find("plant");
+  PlantSet set{.name = name,
+               .source = source,
+               .verified = true,
+               .reason = "as stated and found there",
+               .plant = {},
+               .damping = {},
+               .kind = kind.as_string()};
+  const PlantModel& model = find_plant_model(set.kind, kind.where());
+  if (const Value* parameters = document.find("parameters"))
+    set.stated = read_found_parameters(model, *parameters);
+  set.plant = from_parameters(model, set.stated, values, source);
+  set.plant.name = name;
+  set.plant.title = std::string(model.title) + " (" + name + ")";
+  set.plant.source = set.source;
+  return set;
+}
+
+/// The document, where it is a plant with its sensors in JSON or YAML.
+std::optional<Value> as_plant_with_sensors(std::string_view text, const std::string& source) {
+  try {
+    Value document =
+        trim(text).starts_with('{') ? parse_json(text, source) : parse_yaml(text, source);
+    if (file_kind(document) == kWithSensors) return document;
+  } catch (const Error&) {  // whoever reads it as another file says what is wrong with it
+  }
+  return {};
+}
+
 DampingRange read_damping(const Value& value) {
   const std::vector<double> d = value.as_numbers();
   if (d.size() != 3 || !(0 <= d[0] && d[0] <= d[1] && d[1] <= d[2]))
@@ -114,6 +169,8 @@ std::vector<std::string> plant_set_names() { return data_names("plants", ".json"
 
 PlantSet parse_plant_set(std::string_view text, const std::string& source, const std::string& name,
                          const NamedValues& values) {
+  if (const std::optional<Value> with_sensors = as_plant_with_sensors(text, source))
+    return from_plant_with_sensors(*with_sensors, source, name, values);
   const Value document = parse_json_of(text, source, "a plant");
   ObjectReader reader(document, "a plant");
   if (document.find("matrices"))
