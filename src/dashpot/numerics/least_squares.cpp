@@ -12,8 +12,8 @@
 #include <ceres/ceres.h>
 
 #include "dashpot/base/parallel.h"
-#include "dashpot/numerics/ceres_ending.h"
 #include "dashpot/numerics/quiet_ceres.h"
+#include "dashpot/numerics/search_ending.h"
 
 namespace dashpot {
 namespace {
@@ -184,7 +184,8 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
 
   // Ceres counts the evaluation at the start as an iteration; the report does not.
   report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.message = ceres_ending(summary.termination_type, summary.message);
+  report.message = search_ending(
+      report.converged, summary.termination_type == ceres::NO_CONVERGENCE, summary.message);
   report.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
 }
 

@@ -5,8 +5,8 @@
 
 #include <ceres/ceres.h>
 
-#include "dashpot/numerics/ceres_ending.h"
 #include "dashpot/numerics/quiet_ceres.h"
+#include "dashpot/numerics/search_ending.h"
 
 namespace dashpot {
 namespace {
@@ -87,7 +87,8 @@ MinimiseReport minimise(const SmoothFunction& function, std::vector<double> star
 
   // Its list of iterations holds the evaluation at the start too, which is none.
   report.converged = summary.termination_type == ceres::CONVERGENCE;
-  report.message = ceres_ending(summary.termination_type, summary.message);
+  report.message = search_ending(
+      report.converged, summary.termination_type == ceres::NO_CONVERGENCE, summary.message);
   report.iterations = static_cast<int>(summary.iterations.size()) - 1;
   report.value = summary.final_cost;
   return report;
