@@ -62,6 +62,16 @@ class InsideAPlant(InFolder):
         with self.assertRaises(KeyError):
             run.error("a sensor that is not there")
 
+    def test_driven_as_found(self):
+        car = {"unsprung_mass": "40 kg", "spring_stiffness": 2e4, "sprung_mass": 350, "tyre_stiffness": 2e5}
+        found = {"plant": "quarter_car", "parameters": {**car, "sprung_mass": {"found": 350, "low": 340, "high": 360}},
+                 "inputs": [{"channel": "road", "kind": "ground"}]}
+        ride = {"dampers": "viscous,damping=1500", "road": "step,height=0.01", "duration": 1}
+        words = [f"{name}={value}" for name, value in car.items()]
+        driven = dashpot.simulate(found, **ride)
+        same = dashpot.simulate("quarter_car", values=words, **ride)
+        self.assertTrue((driven["body_acceleration"] == same["body_acceleration"]).all())
+
     def test_watched(self):
         def day(seed, *wear):
             words = ["--damper", "kwok2006", "--true", "mass=100kg", "--duration", "4", "--push", "800"]

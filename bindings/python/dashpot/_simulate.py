@@ -54,8 +54,17 @@ def _names(dampers: Union[Damper, Iterable[Damper]], folder: Path) -> list:
     return names
 
 
+def _plant_file(plant: Union[str, dict], folder: Path) -> str:
+    """Words for the plant; what a file of one holds becomes a file in the folder."""
+    if isinstance(plant, str):
+        return plant
+    path = folder / "plant.json"
+    path.write_text(json.dumps(plant))
+    return str(path)
+
+
 def simulate(
-    plant: str = "savaresi_spelta",
+    plant: Union[str, dict] = "savaresi_spelta",
     dampers: Union[Damper, Iterable[Damper]] = (),
     *,
     road: str = "iso8608,class=C",
@@ -75,7 +84,7 @@ def simulate(
 ) -> Trace:
     """A vehicle or building from rest, in the words of `dashpot simulate`; SI units.
 
-    plant: a set or a kind of plant; values: in place of its own: ["sprung_mass=350kg"]. dampers: one for all
+    plant: a set, a kind of plant, a file or a dict of what it holds (PlantFit.plant); values: in place of its own: ["sprung_mass=350kg"]. dampers: one for all
     struts or one each: a DamperModel, or words ("viscous,damping=1500", a parameter set, a file); none: the
     plant's own range, ideal. road: with its settings. duration: s, 0: the road's, 20 s at most. controller: with
     its settings; "": the current stays at `current`, A. inverse: a scheme or file, from a wanted force to a
@@ -86,7 +95,7 @@ def simulate(
     """
     with tempfile.TemporaryDirectory(prefix="dashpot-") as folder:
         options = {
-            "plant": plant,
+            "plant": _plant_file(plant, Path(folder)),
             "set": words(values),
             "dampers": _names(dampers, Path(folder)),
             "controller": controller,
