@@ -13,10 +13,12 @@ DocumentFigure sensor_figure(const InPlantTrace& trace, const std::vector<Sensor
   const std::size_t first = count > kMostShown ? count - kMostShown : 0;
   for (std::size_t s = 0; s < trace.modelled.size(); ++s) {
     FigurePanel panel{.title = sensors[s].channel,
-                      .x_label = "time, s",
-                      .y_label = sensors[s].channel + ", " + sensors[s].unit,
+                      .x_label = "Time",
+                      .y_label = sensors[s].channel,
                       .series = {},
-                      .reads_along_x = true};
+                      .reads_along_x = true,
+                      .x_unit = "s",
+                      .y_unit = sensors[s].unit};
     FigureSeries measured{.label = "measured", .colour = "measured"};
     FigureSeries modelled{.label = "modelled", .colour = "modelled"};
     for (std::size_t k = first; k < count; ++k) {
@@ -33,9 +35,11 @@ DocumentFigure sensor_figure(const InPlantTrace& trace, const std::vector<Sensor
   for (const DamperTrace& damper : trace.dampers) {
     const std::string place = trace.dampers.size() > 1 ? " at " + damper.strut : "";
     FigurePanel panel{.title = "force of the damper" + place + ", " + forces,
-                      .x_label = "deflection, m",
-                      .y_label = "force, N",
-                      .series = {}};
+                      .x_label = "Deflection",
+                      .y_label = "Force",
+                      .series = {},
+                      .x_unit = "m",
+                      .y_unit = "N"};
     FigureSeries loop{.label = "modelled", .colour = "modelled"};
     for (std::size_t k = first; k < count; ++k) {
       loop.x.push_back(damper.deflection[k]);

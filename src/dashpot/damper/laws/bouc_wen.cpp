@@ -18,7 +18,8 @@ const Law kBoucWen = with_travel<BoucWen, bouc_wen_travel>(
             "z has no scale of its own: of alpha, A, gamma and beta only three numbers are "
             "independent, so A keeps its value in a fit, as do n and x0 (k0 x0 is a constant "
             "force, which f0 holds). The force does not roll off at low speed as a damper's does: "
-            "modified_bouc_wen adds that.",
+            "modified_bouc_wen adds that. Loops that harden need beta < 0: "
+            "examples/laws/hardening_bouc_wen.yaml.",
         .states = {{"z", "m"}},
         .params =
             {
