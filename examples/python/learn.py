@@ -11,11 +11,12 @@ import dashpot
 
 recordings = dashpot.Recordings(sys.argv[1])
 
-# %% One array of samples per recording: time, displacement, velocity, current; and the force beside it
+# %% One array of samples per recording: time, displacement, velocity, current or voltage; and the force beside it
+drive = next(name for name in recordings[0]["columns"] if name in ("current [A]", "voltage [V]"))
 X, y = [], []
 for k in range(len(recordings)):
     columns = recordings[k]["columns"]
-    names = ["time [s]", "displacement [m]", "velocity [m/s]", "current [A]"]
+    names = ["time [s]", "displacement [m]", "velocity [m/s]", drive]
     X.append(np.column_stack([columns[name] for name in names]))
     y.append(columns["force [N]"])
 
@@ -25,7 +26,7 @@ seen = [k for k in range(len(X)) if recordings[k]["condition"] != left_out]
 unseen = [k for k in range(len(X)) if recordings[k]["condition"] == left_out]
 estimators = []
 for name in ["bingham", "tanh_kwok"]:
-    estimator = dashpot.Identifier(model=name, starts=2)
+    estimator = dashpot.Identifier(model=name, drive_unit=drive[-2], starts=2)
     estimator.fit([X[k] for k in seen], [y[k] for k in seen])
     score = estimator.score([X[k] for k in unseen], [y[k] for k in unseen])
     print(f"{name}: R2 {score:.4f} on {left_out}, which it has not seen")

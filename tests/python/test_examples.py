@@ -50,6 +50,12 @@ class Examples(InFolder):
         steps = re.search(r"after 10 steps (\S+) N, in the whole run (\S+) N", printed)
         self.assertEqual(steps[1], steps[2])
 
+    def test_learn_of_a_voltage(self):
+        """The damper that `dashpot bench` takes by itself is driven by one."""
+        program("bench", "--motions", "20x1,10x2", "--levels", "0,1,2", "--sample-rate", "200", "--output", "volts",
+                cwd=self.folder)
+        self.assertRegex(python(EXAMPLES / "learn.py", "volts", cwd=self.folder), r"evaluate: ESR \S+ %")
+
     def test_suspension(self):
         printed = python(EXAMPLES / "suspension.py", "campaign", cwd=self.folder)
         rides = re.findall(r"^(.*): body (\S+) m/s\^2 rms, tyre load (\S+) %", printed, re.M)

@@ -90,6 +90,12 @@ class RecordingsInMemory(unittest.TestCase):
         with self.assertRaisesRegex(dashpot.Error, "nowhere"):
             dashpot.Recordings("/nowhere")
 
+    def test_what_is_no_recording_says_what_would_be_right(self):
+        with self.assertRaisesRegex(TypeError, "recording '0.5 A': they are counted by whole numbers"):
+            bench()["0.5 A"]
+        with self.assertRaisesRegex(TypeError, "recordings: is a int; Recordings, a path, or a list of paths"):
+            dashpot.compare(bench(), 3)
+
 
 class Identification(InFolder):
     def test_a_law_from_a_file(self):
@@ -243,6 +249,10 @@ class Estimator(unittest.TestCase):
             dashpot.Identifier().fit(self.X[0], self.y[0][:-1])
         with self.assertRaisesRegex(dashpot.Error, "recordings"):
             dashpot.Identifier().fit(self.X, self.y[:-1])
+        with self.assertRaisesRegex(dashpot.Error, "drive_unit: is 'mA'; 'A' or 'V'"):
+            dashpot.Identifier(drive_unit="mA").fit(self.X[0], self.y[0])
+        with self.assertRaisesRegex(dashpot.Error, "y has 0 dimensions; one force per sample"):
+            dashpot.Identifier().fit(self.X[0], None)
 
     def test_scikit_learn(self):
         try:
@@ -315,6 +325,9 @@ class Vehicles(unittest.TestCase):
             dashpot.simulate(road="gravel")
         with self.assertRaisesRegex(dashpot.Error, "duration: is nan; finite numbers"):
             dashpot.simulate(duration=float("nan"))
+        for nothing in (None, [damper, 3]):
+            with self.assertRaisesRegex(TypeError, "dampers: is a .*; a DamperModel or a damper's words"):
+                dashpot.simulate(dampers=nothing)
 
 
 class Stubs(InFolder):

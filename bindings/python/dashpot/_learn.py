@@ -41,6 +41,8 @@ def score(model, X, y, sample_time=None) -> float:
 
 def _table(x, unit: str) -> dict:
     """Channel -> samples, SI."""
+    if unit not in ("A", "V"):
+        raise _core.Error(f"drive_unit: is {unit!r}; 'A' or 'V'")
     if _frames.is_frame(x):
         return _frames.columns(x)
     x = np.asarray(x)
@@ -134,6 +136,8 @@ class Identifier:
         """X and y as fit() understands them."""
         data = Recordings()
         for x, force in parts(X, y):
+            if np.ndim(force) != 1:
+                raise _core.Error(f"y has {np.ndim(force)} dimensions; one force per sample")
             table = {**_table(x, self.drive_unit), "force": np.asarray(force)}
             if len(table["force"]) != len(table["velocity" if "velocity" in table else "displacement"]):
                 raise _core.Error(f"y has {len(table['force'])} samples, X {len(x)}")

@@ -72,6 +72,8 @@ class Recordings:
 
     def __getitem__(self, place: int) -> dict:
         """Name, condition, sample_time (s) and columns: {"velocity [m/s]": array}, read-only views."""
+        if not hasattr(place, "__index__"):
+            raise TypeError(f"recording {place!r}: they are counted by whole numbers, from 0")
         if not -len(self) <= place < len(self):
             raise IndexError(f"recording {place} of {len(self)}")
         return self._core.record(place % len(self))
@@ -94,4 +96,6 @@ def as_recordings(data) -> Recordings:
     """Recordings as they are, or those that paths name."""
     if isinstance(data, Mapping) or _frames.is_frame(data):
         raise TypeError("one table is no path: Recordings().add(table) makes recordings of it")
+    if not isinstance(data, (Recordings, str, os.PathLike, Iterable)):
+        raise TypeError(f"recordings: is a {type(data).__name__}; Recordings, a path, or a list of paths")
     return data if isinstance(data, Recordings) else Recordings(data)

@@ -44,8 +44,11 @@ class Trace:
 
 def _names(dampers: Union[Damper, Iterable[Damper]], folder: Path) -> list:
     """Words for the dampers; models become files in the folder."""
+    listed = list(dampers) if isinstance(dampers, Iterable) and not isinstance(dampers, str) else [dampers]
     names = []
-    for k, damper in enumerate([dampers] if isinstance(dampers, (str, _core.DamperModel)) else dampers):
+    for k, damper in enumerate(listed):
+        if not isinstance(damper, (str, _core.DamperModel)):
+            raise TypeError(f"dampers: is a {type(damper).__name__}; a DamperModel or a damper's words")
         if isinstance(damper, _core.DamperModel):
             path = str(folder / f"{k}_{damper.name}.json")
             damper.save(path)
