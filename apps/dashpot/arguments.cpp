@@ -76,6 +76,13 @@ void require_one_value_each(const std::vector<std::string>& words, const Option&
     throw UsageError(option.long_name(), *twice + " is stated twice", "one value of each name");
 }
 
+/// Throws UsageError where an option with one value was given several, of which one would count.
+void require_one_word(const std::vector<std::string>& words, const Option& option) {
+  if (words.size() < 2 || option.is_list()) return;
+  throw UsageError(option.long_name(), "is given " + std::to_string(words.size()) + " times",
+                   "one value: " + join(words, " or "));
+}
+
 /// Writes the words given for one option to its variable.
 struct StoreWords {
   const Option& option;
@@ -108,11 +115,11 @@ void add(CLI::App& app, const Option& option) {
     return;
   }
   CLI::Option* added = app.add_option(option.names, [&option](const CLI::results_t& words) {
+    require_one_word(words, option);
     std::visit(StoreWords{option, words}, option.target);
     return true;
   });
-  added->multi_option_policy(option.is_list() ? CLI::MultiOptionPolicy::TakeAll
-                                              : CLI::MultiOptionPolicy::TakeLast);
+  added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   if (option.is_list() && option.is_positional())
     added->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
 }

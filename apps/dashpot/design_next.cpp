@@ -95,6 +95,7 @@ std::vector<Option> next_options(NextSettings& settings) {
            .help = "in place of designs: so many drawings whose recording would tell --model, a "
                    "family_physics, most",
            .value = "N",
+           .minimum = 1,
            .default_text = "none",
            .idles = {{{"--points", "--generations", "--start-from", "--method", "--second",
                        "--outside-family", "--insist", "--no-report"},
