@@ -31,6 +31,7 @@ constexpr std::string_view kCharacteriseExample =
 
 int run_characterise(const CharacteriseSettings& settings, Console& console) {
   require_page(settings.report);
+  require_output(settings.csv);
   const PrintUnits units = page_units(settings.units);
   const CharacteriseOptions options{parse_speeds(settings.speeds, units)};
   const Dataset dataset = load_recordings(settings.data, console);

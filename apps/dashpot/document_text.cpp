@@ -16,7 +16,12 @@ bool is_pdf(const std::string& path) { return path.ends_with(".pdf"); }
 
 }  // namespace
 
+void require_output(const std::string& path) {
+  if (!path.empty()) require_writable(path);
+}
+
 void require_page(const std::string& path) {
+  require_output(path);
   if (is_pdf(path)) require_browser();
 }
 

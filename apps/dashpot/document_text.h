@@ -10,7 +10,10 @@ namespace dashpot::cli {
 /// The verdict of a document and its tables, on the terminal; figures are left to the page.
 void print_document(const Document& document, Console& console);
 
-/// Throws Error where `path` is a PDF and no browser is there that prints it; before long work.
+/// Throws Error where a file cannot be written to `path`, before long work. Empty: none is asked
+/// for.
+void require_output(const std::string& path);
+/// The same of a page: also where it is a PDF and no browser is there that prints it.
 void require_page(const std::string& path);
 /// The document as a page, or as that page printed where the path ends in .pdf.
 void write_page(const Document& document, const std::string& path);

@@ -202,6 +202,7 @@ BuildReport measured(const FamilyModel& member, const ModelFile& family,
 }
 
 int run_member(const MemberSettings& settings, Console& console) {
+  require_output(settings.output);
   ModelFile file = load_model(settings.model);
   const auto* family = model_as<FamilyModel>(*file.model);
   if (!family)

@@ -13,6 +13,7 @@
 #include "dashpot/dataset.h"
 #include "dashpot/identify/fit/physics_calibration.h"
 #include "dashpot/physics/damper_physics.h"
+#include "document_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -195,6 +196,7 @@ Value calibration_json(const PhysicsCalibration& found) {
 
 /// Recordings of the drawn damper say what its drawing does not know.
 int run_calibration(const PhysicsSettings& settings, Console& console) {
+  require_output(settings.output);
   const Dataset data = load_dataset({settings.recordings.begin(), settings.recordings.end()});
   const PhysicsCalibration found = calibrate_physics(described(settings), data, console.monitor());
 

@@ -65,6 +65,24 @@ TEST_CASE("a pipe and a device are refused at once") {
   CHECK(!fs::is_regular_file("/dev/null"));
 }
 
+TEST_CASE("where no file can be written is told before any is, and nothing is made") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.csv", "old"), missing = folder.path() / "missing";
+  const auto refusal = [](const fs::path& path) {
+    return message_of([&] { require_writable(path); });
+  };
+  CHECK(contains(refusal(folder.path()), "is no regular file"));
+  CHECK(contains(refusal(missing / ""), "is no regular file"));
+  CHECK(contains(refusal(file / "b" / "c.csv"), "a.csv is no folder"));
+  CHECK(refusal(file).empty());
+  CHECK(refusal(missing / "b" / "c.csv").empty());
+  CHECK(refusal("c.csv").empty());
+
+  // What would be refused leaves no folder behind.
+  CHECK(contains(message_of([&] { write_file(missing / "", "x"); }), "is no regular file"));
+  CHECK(!fs::exists(missing));
+}
+
 TEST_CASE("gzip files of several parts are read to the end, and only whole ones") {
   const TemporaryFolder folder;
   const fs::path first = folder.write("a", "one\n"), second = folder.write("b", "two\n");

@@ -78,6 +78,14 @@ TEST_CASE("characterise refuses speeds that are none, and says where there is no
   CHECK(contains(wrong.output, "mm/s"));
   CHECK(run_dashpot("characterise " + file + " --speeds -3").exit_code == 2);
 
+  // Nor does it begin where what it is to write has no place.
+  for (const std::string option : {" --report ", " --csv "}) {
+    const ProgramResult placeless = run_dashpot("characterise nowhere" + option + "/dev/null");
+    CAPTURE(placeless.output);
+    CHECK(placeless.exit_code == 1);
+    CHECK(contains(placeless.output, "/dev/null: cannot be written: it is no regular file"));
+  }
+
   std::string rest = "t_s,x_mm,F_N\n";
   for (int k = 0; k < 500; ++k) rest += std::to_string(k * 0.002) + ",3,100\n";
   const ProgramResult still =

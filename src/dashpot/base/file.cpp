@@ -348,15 +348,29 @@ void make_folder(const fs::path& path) {
   if (error) throw Error(path.string(), "cannot make this folder: " + error.message());
 }
 
-void write_file(const fs::path& path, std::string_view content) {
-  if (path.has_parent_path()) make_folder(path.parent_path());
-
-  // A device must not give way to a file.
+void require_writable(const fs::path& path) {
+  // Neither a device nor a folder must give way to a file.
   std::error_code none;
   const fs::file_status there = fs::symlink_status(path, none);
-  if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
+  const bool is_other = fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there);
+  if (is_other || !path.has_filename())
     throw Error(path.string(), "cannot be written: it is no regular file",
                 "name a file that may be replaced");
+
+  // Missing folders are made, in the nearest one that is there.
+  fs::path folder = path.parent_path();
+  while (!folder.empty() && !fs::exists(folder, none)) folder = folder.parent_path();
+  if (folder.empty()) folder = ".";
+  if (!fs::is_directory(folder, none))
+    throw Error(path.string(), "cannot be written: " + folder.string() + " is no folder",
+                "name a file in a folder");
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error(path.string(), "cannot be written: " + reason(), "a folder of your own");
+}
+
+void write_file(const fs::path& path, std::string_view content) {
+  require_writable(path);
+  if (path.has_parent_path()) make_folder(path.parent_path());
 
   TemporaryFile file(path);
   file.write(content);

@@ -39,6 +39,11 @@ std::string read_head(const std::filesystem::path& path, std::size_t bytes);
 /// holds more than any file that is read at once.
 std::string read_file(const std::filesystem::path& path);
 
+/// Throws Error where write_file(path) would be refused for what is there: a device or a folder in
+/// the file's place, a file in a folder's, or a folder in which nothing may be made. Makes nothing:
+/// for what takes long, before it.
+void require_writable(const std::filesystem::path& path);
+
 /// The one way in which Dashpot writes files: to a private temporary name beside `path`, to the
 /// disk, and renamed. On any failure (disk full, no right to write) throws Error and the old file
 /// stands unchanged; a link at `path` is replaced, never followed. Makes missing folders, and
