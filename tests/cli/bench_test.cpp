@@ -175,7 +175,8 @@ TEST_CASE(
 
   const ProgramResult ranking = run_dashpot(
       "rank " + campaign +
-      " --models family_physics,family_line,bingham --starts 1 --force-offset none -o " + ranked);
+      " --models family_physics,family_line,bingham --starts 1 --force-offset none --quiet -o " +
+      ranked);
   CHECK_MESSAGE(ranking.exit_code == 0, ranking.output);
   const std::size_t physics = ranking.output.find("family_physics"),
                     blind = ranking.output.find("bingham");

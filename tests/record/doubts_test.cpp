@@ -58,6 +58,20 @@ TEST_CASE("a force that sticks while the damper moves is told with its time") {
   CHECK(contains(only_doubt(record), "the force stands at 123.5 N from 1.2 s to 1.598 s"));
 }
 
+TEST_CASE(
+    "friction that stands on one step of a coarse sensor is no stuck one, through a turn it is") {
+  Record friction = sound_record();
+  std::vector<double>& force = samples(friction, "force");
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double v = std::cos(2 * std::numbers::pi * friction.time[k]);
+    force[k] = std::round(15 * std::tanh(20 * v) + (k % 200 == 150 ? 0.6 : 0));
+  }
+  CHECK(doubts_about(friction).empty());
+
+  std::fill_n(force.begin() + 600, 200, force[600]);
+  CHECK(contains(only_doubt(friction), "to 1.598 s while the damper moves: the sensor stuck"));
+}
+
 TEST_CASE("a displacement that sticks and leaps is told; one that dwells is not") {
   Record record = sound_record();
   std::vector<double>& x = samples(record, "displacement");

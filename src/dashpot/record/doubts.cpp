@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -82,7 +83,25 @@ double way_within(const Samples& displacement, const Run& run, double stroke) {
   return way / stroke;
 }
 
-/// A force that does not change at all while the damper goes on.
+/// Whether the values lie on so few steps of their resolution that friction alone may stand on one
+/// of them throughout a stroke.
+bool is_coarse(const Samples& values) {
+  constexpr double kSteps = 64;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double step : steps_of(values))
+    if (step > 0) least = std::min(least, step);
+  return std::isfinite(least) && usual_span(values) < kSteps * least;
+}
+
+/// Whether the damper turns within a run: it goes further than from its beginning to its end.
+bool turns_within(const Samples& displacement, const Run& run, double stroke) {
+  constexpr double kBack = 0.05;
+  const double net = std::abs(displacement[run.end - 1] - displacement[run.first]) / stroke;
+  return way_within(displacement, run, stroke) - net > kBack;
+}
+
+/// A force that does not change at all while the damper goes on. Where its resolution is coarse the
+/// damper must turn meanwhile, which friction does not outlast.
 std::optional<std::string> stuck_force(const Record& record, const Samples& force,
                                        const Samples& displacement, double stroke) {
   constexpr std::size_t kLeast = 10;
@@ -90,7 +109,8 @@ std::optional<std::string> stuck_force(const Record& record, const Samples& forc
   Run worst;
   double longest = kShareOfStroke;
   for (const Run& run : equal_runs(force, kLeast))
-    if (const double way = way_within(displacement, run, stroke); way > longest) {
+    if (const double way = way_within(displacement, run, stroke);
+        way > longest && (turns_within(displacement, run, stroke) || !is_coarse(force))) {
       longest = way;
       worst = run;
     }
