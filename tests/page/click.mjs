@@ -219,6 +219,7 @@ try {
   const written = (await curve.page.evaluate(() => window.written)).map(({text}) => text);
   for (const text of ["2.0e−9", "4414.510"]) assert.ok(written.includes(text), `${text} among ${written}: ticks of a tiny axis are told apart`);
   await curve.done();
+  await (await open("curve.html", {width: 390})).done();
 
   const inspect = await open("inspect.html");
   await inspect.page.selectOption("#record", "1");

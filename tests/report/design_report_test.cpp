@@ -38,6 +38,7 @@ TEST_CASE("design report: a line per design, the same in JSON, and a page that n
   CHECK(json.find("goals")->items()[1].find("text")->as_string() == "smallest mass");
   const Document document = design_document(input);
   CHECK(html_document(document).find("a <b> damper") == std::string::npos);
+  CHECK(contains(html_document(document), "what the models differ by is of the middles"));
   CHECK(markdown_document(document).find("_001 |") != std::string::npos);
   const std::string text = document_text(document, 100);
   for (const char* part : {"knee", "force at least 1000 N", "gap mm ±0.05"})

@@ -65,6 +65,15 @@ dashpot::Document curve_document() {
                             "force (N)",
                             {{"force", "series-1", {1e-9, 8e-9}, {4414.5, 4414.52}}}};
   section.figures.push_back({"tiny", "", "", {std::move(tiny)}});
+
+  // Names of files that hold no place to break a line at.
+  const std::string file = "campaign/g1.8_l9_122EG_build_1_20_mm_0.6_Hz_1_A_of_the_second_day.csv";
+  section.title = "A curve of " + file;
+  section.figures.push_back(
+      {"named",
+       "",
+       "",
+       {{"Named", "velocity (m/s)", "force (N)", {{file, "series-1", {0, 1}, {0, 2}}}}}});
   return {.title = "Curve",
           .subtitle = {},
           .verdict = "A figure of one plot.",

@@ -118,6 +118,10 @@ DocumentPlane plane_of(const DesignReport& report) {
       .outstanding_label = "best of a goal, and the knee",
       .second_label = "by " + report.second_name,
       .choice = "design"};
+  if (!report.second_name.empty())
+    plane.note +=
+        " Where a model has a band, its forces stand at the pessimistic end of it; what the models "
+        "differ by is of the middles.";
   for (const Design& design : report.designs) {
     plane.names.push_back(design.name + (design.role.empty() ? "" : ", " + design.role));
     plane.outstanding.push_back(!design.role.empty());
