@@ -3,6 +3,7 @@
 #include <numbers>
 #include <random>
 
+#include "dashpot/base/random.h"
 #include "dashpot/numerics/filter.h"
 #include "dashpot/record/cycle_figures.h"
 #include "dashpot/record/differentiate.h"
@@ -278,6 +279,65 @@ TEST_CASE("knee: two lines are found again, one line and a progressive curve hav
   CHECK(contains(fit_knee(v, one).why_no_knee, "one straight line"));
   CHECK(contains(fit_knee(v, progressive).why_no_knee, "progressive"));
   CHECK(contains(fit_knee({0.1, 0.2}, {1, 2}).why_no_knee, "fewer than three"));
+}
+
+namespace {
+
+/// Loops of one damper: a knee at 50 mm/s and 500 N above it, each cycle up and down by 10 N and a
+/// tenth of its slope, with little else.
+struct Loops {
+  std::vector<double> speed, force;
+  std::vector<std::size_t> ends;
+  Loops(int cycles, Random& random) {
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+      const double zero = 10 * random.normal(), steep = 1 + 0.1 * random.normal();
+      for (int k = 1; k <= 48; ++k) {
+        const double v = 0.002 * k;
+        speed.push_back(v);
+        force.push_back(zero + 500 * std::min(1.0, v / 0.05) + 1500 * steep * v + random.normal());
+      }
+      ends.push_back(speed.size());
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("errors of loops that differ as wholes tell two of one damper apart by chance only") {
+  Random random(7);
+  int clear = 0, clear_by_points = 0;
+  constexpr int kPairs = 30;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    const Loops a(5, random), b(5, random);
+    const auto differ = [](const Measured& one, const Measured& other) {
+      return std::abs(one.value - other.value) > 2 * std::hypot(one.error, other.error);
+    };
+    clear += differ(fit_knee_of_parts(a.speed, a.force, a.ends).yield,
+                    fit_knee_of_parts(b.speed, b.force, b.ends).yield);
+    clear_by_points += differ(fit_knee(a.speed, a.force).yield, fit_knee(b.speed, b.force).yield);
+  }
+  CAPTURE(clear);
+  CAPTURE(clear_by_points);
+  CHECK(clear <= 5);
+  CHECK(clear_by_points >= 8);
+}
+
+TEST_CASE("what one part alone says, or a knee that comes with one of them, has no error") {
+  Random random(8);
+  const Loops one(1, random);
+  const KneeFit single = fit_knee_of_parts(one.speed, one.force, one.ends);
+  CHECK(single.knee.is_told());
+  CHECK(single.yield.is_told());
+  CHECK(!std::isfinite(single.knee.error));
+  CHECK(!std::isfinite(single.yield.error));
+
+  // Four speeds, each of a record: three have no knee.
+  const std::vector<double> v{0.01, 0.01, 0.02, 0.02, 0.05, 0.05, 0.1, 0.1};
+  std::vector<double> f;
+  for (const double speed : v) f.push_back(500 * std::min(1.0, speed / 0.02) + 1000 * speed);
+  const KneeFit few = fit_knee_of_parts(v, f, {2, 4, 6, 8});
+  CHECK(few.knee.is_told());
+  CHECK(!std::isfinite(few.yield.error));
 }
 
 TEST_CASE("turning points of a saw with noise below the threshold") {

@@ -14,6 +14,7 @@ Characterisation sheet(double force, double percent, double highest = 1) {
     LevelFigures level;
     level.drive = drive;
     level.friction = {force / 10, 1};
+    level.static_force = {force / 10, 1};
     for (const double speed : {0.1, 0.2}) {
       SpeedFigures figures;
       figures.speed = speed;
@@ -46,6 +47,12 @@ TEST_CASE("a difference is clear where it is more than twice the scatter of both
   // Friction by the errors of both fits: 5 N against 2 sqrt(2) N.
   CHECK(clear[0].friction.is_clear() == true);
   CHECK(!clear[0].yield.is_clear());
+
+  // What holds the zero of a load cell is told without noise, however far it goes.
+  CHECK_CLOSE(clear[0].speeds[0].rebound.value(), 50, 1e-12, 0);
+  CHECK(!clear[0].speeds[0].rebound.is_clear());
+  CHECK(!clear[0].speeds[0].compression.is_clear());
+  CHECK(!clear[0].static_force.is_clear());
 }
 
 TEST_CASE("figures from speeds and from a loop are not told apart by their scatter") {

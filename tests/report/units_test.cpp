@@ -36,6 +36,8 @@ TEST_CASE("a quantity is shown in any units, with the resolution that it has in 
   CHECK(in_units("a force of " + quantity(444.82216152605, "N") + ' ' + unit_name("N"), pounds) ==
         "a force of 100 lbf");
   CHECK(in_units(plain_quantity(123456, "N"), {}) == "123456");
+  CHECK(in_units(plain_quantity(999.7, "N"), {}) == "1000");
+  CHECK(in_units(plain_quantity(164, "N", 2), {}) == "164");
   CHECK(in_units(fixed_quantity(12.34, "N", 0), {}) == "12");
   CHECK(in_units(fixed_quantity(12.34, "N", 0), PrintUnits::parse("kN,m/s", "test")) == "0.012");
   CHECK(in_units(signed_quantity(4.4482, "N", 1), pounds) == "+1.00");

@@ -139,13 +139,36 @@ Measured rate_at_rest(const std::vector<Member>& members) {
   return {value, std::sqrt(variance * wuu / determinant)};
 }
 
+/// Forces of one direction over speed, and where what scatters together ends: behind the points of
+/// each cycle of a loop or each record. Without such ends each point scatters by itself.
+KneeFit knee_of(const MeanLoop& course) {
+  return course.ends.empty() ? fit_knee(course.speed, course.force)
+                             : fit_knee_of_parts(course.speed, course.force, course.ends);
+}
+
 /// Knee, friction and static force from the course of force over speed in both directions.
 void tell_from(LevelFigures& level, const MeanLoop& rebound, const MeanLoop& compression) {
-  level.rebound = fit_knee(rebound.speed, rebound.force);
-  level.compression = fit_knee(compression.speed, compression.force);
+  level.rebound = knee_of(rebound);
+  level.compression = knee_of(compression);
   level.yield = half_of(level.rebound.yield, level.compression.yield, 1);
   level.friction = half_of(level.rebound.at_rest, level.compression.at_rest, 1);
   level.static_force = half_of(level.compression.at_rest, level.rebound.at_rest, -1);
+}
+
+/// Mid-stroke forces over speed of one direction (`sign`: 1 for the rebound, -1 for the
+/// compression), record by record: those of one record share its zero. A single record has no
+/// parts.
+MeanLoop mid_stroke_forces(const std::vector<Member>& by_record, StrokeFigures CycleFigures::* way,
+                           double sign) {
+  MeanLoop course;
+  for (const Member& member : by_record) {
+    course.speed.push_back((member.cycle->*way).mid_speed);
+    course.force.push_back(sign * (member.cycle->*way).mid_force);
+  }
+  for (std::size_t k = 1; k < by_record.size(); ++k)
+    if (by_record[k].record != by_record[k - 1].record) course.ends.push_back(k);
+  if (!course.ends.empty()) course.ends.push_back(by_record.size());
+  return course;
 }
 
 LevelFigures figures_of_level(const std::vector<Member>& members, const Dataset& dataset) {
@@ -157,14 +180,10 @@ LevelFigures figures_of_level(const std::vector<Member>& members, const Dataset&
   const double slowest = level.speeds.front().speed, fastest = level.speeds.back().speed;
   if (level.speeds.size() >= kSpeedsForCurve && fastest >= kSpreadForCurve * slowest) {
     level.basis = "speeds";
-    MeanLoop rebound, compression;
-    for (const Member& member : members) {
-      rebound.speed.push_back(member.cycle->rebound.mid_speed);
-      rebound.force.push_back(member.cycle->rebound.mid_force);
-      compression.speed.push_back(member.cycle->compression.mid_speed);
-      compression.force.push_back(-member.cycle->compression.mid_force);
-    }
-    tell_from(level, rebound, compression);
+    std::vector<Member> by_record = members;
+    std::ranges::stable_sort(by_record, {}, &Member::record);
+    tell_from(level, mid_stroke_forces(by_record, &CycleFigures::rebound, 1),
+              mid_stroke_forces(by_record, &CycleFigures::compression, -1));
     return level;
   }
 
@@ -226,6 +245,10 @@ std::vector<std::string> remarks_of(const LevelFigures& level) {
                     kSpeedsForCurve, kSpreadForCurve));
   if (level.friction.is_told() && level.friction.error > 0.1 * std::abs(level.friction.value))
     remarks.push_back("the friction is told to no better than 10 %: record slower cycles");
+  if (level.yield.is_told() && !std::isfinite(level.yield.error))
+    remarks.push_back(
+        "the errors of knee and yield force are not known: without one of the cycles or records "
+        "there is another curve, or none; repeat cycles, record more speeds");
   return remarks;
 }
 

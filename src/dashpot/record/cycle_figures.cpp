@@ -380,6 +380,7 @@ void add_mean_loop(const DynoChannels& c, const CycleFigures& cycle, double sign
     loop.speed.push_back((b.speed[0] + b.speed[1]) / 2);
     loop.force.push_back((b.force[0] + b.force[1]) / 2);
   }
+  loop.ends.push_back(loop.speed.size());
 }
 
 DynoChannels dyno_channels(const Record& record, DriveUnit drive_unit,

@@ -73,6 +73,7 @@ CycleFigures figures_of_cycle(const DynoChannels& channels, std::size_t first, s
 /// the rebound, -1 for the compression.
 struct MeanLoop {
   std::vector<double> speed, force;
+  std::vector<std::size_t> ends = {};  ///< behind the last point of each cycle
 };
 void add_mean_loop(const DynoChannels& channels, const CycleFigures& cycle, double sign,
                    MeanLoop& loop);

@@ -27,12 +27,15 @@ const LevelFigures* level_at(const Characterisation& all, const LevelFigures& le
   return found == all.levels.end() ? nullptr : &*found;
 }
 
+/// A number with the load cell's zero in it, which repeats tell nothing of.
+Difference with_zero(double first, double second) { return {first, second, kNoNumber}; }
+
 SpeedDifference difference_at(const SpeedFigures& first, const SpeedFigures& second) {
-  const double noise = std::hypot(scatter_of(first), scatter_of(second));
   return {first.speed,
-          {first.rebound.mid_force, second.rebound.mid_force, noise},
-          {first.compression.mid_force, second.compression.mid_force, noise},
-          {first.damping_force, second.damping_force, noise}};
+          with_zero(first.rebound.mid_force, second.rebound.mid_force),
+          with_zero(first.compression.mid_force, second.compression.mid_force),
+          {first.damping_force, second.damping_force,
+           std::hypot(scatter_of(first), scatter_of(second))}};
 }
 
 }  // namespace
@@ -59,7 +62,7 @@ std::vector<LevelDifference> differences(const Characterisation& first,
         .speeds = {},
         .friction = difference_of(one.friction, other->friction),
         .yield = difference_of(one.yield, other->yield),
-        .static_force = difference_of(one.static_force, other->static_force),
+        .static_force = with_zero(one.static_force.value, other->static_force.value),
         .rate = difference_of(one.rate, other->rate),
         .knee_rebound = difference_of(one.rebound.knee, other->rebound.knee),
         .knee_compression = difference_of(one.compression.knee, other->compression.knee)};

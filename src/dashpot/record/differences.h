@@ -21,8 +21,9 @@ struct Difference {
 /// Forces at one speed and level of the drive.
 struct SpeedDifference {
   double speed = 0;  ///< m/s
-  /// Mid-stroke forces; damping_force: half of their difference. The noise is the scatter from
-  /// cycle to cycle of both, not divided by their number: what repeats is one campaign.
+  /// Mid-stroke forces; damping_force: half of their difference, whose noise is the scatter from
+  /// cycle to cycle of both, not divided by their number: what repeats is one campaign. That of the
+  /// two directions is not known: each holds the zero of its load cell.
   Difference rebound, compression, damping_force;
 };
 
@@ -30,7 +31,8 @@ struct SpeedDifference {
 struct LevelDifference {
   std::optional<double> drive;  ///< A or V
   std::vector<SpeedDifference> speeds;
-  /// With the standard errors of both fits as noise.
+  /// With the standard errors of both fits as noise; that of static_force, which holds the zero of
+  /// the load cell, is not known.
   Difference friction, yield, static_force, rate, knee_rebound, knee_compression;
 };
 

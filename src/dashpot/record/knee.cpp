@@ -123,6 +123,25 @@ Bend best_bend(std::span<const double> v, std::span<const double> f,
   return best;
 }
 
+/// The fit without the points from `first` to before `end`.
+KneeFit fit_without(std::vector<double> speed, std::vector<double> force, std::size_t first,
+                    std::size_t end) {
+  for (std::vector<double>* values : {&speed, &force})
+    values->erase(values->begin() + static_cast<std::ptrdiff_t>(first),
+                  values->begin() + static_cast<std::ptrdiff_t>(end));
+  return fit_knee(speed, force);
+}
+
+/// The jackknife's standard error of one number, from the fits without one group after the other.
+double jackknife_error(const std::vector<KneeFit>& without, Measured KneeFit::* number) {
+  if (without.size() < 2) return kNoNumber;
+  const auto groups = static_cast<double>(without.size());
+  double mean = 0, squares = 0;
+  for (const KneeFit& fit : without) mean += (fit.*number).value / groups;
+  for (const KneeFit& fit : without) squares += std::pow((fit.*number).value - mean, 2);
+  return std::sqrt((groups - 1) / groups * squares);
+}
+
 }  // namespace
 
 bool Measured::is_told() const { return std::isfinite(value); }
@@ -175,6 +194,28 @@ KneeFit fit_knee(const std::vector<double>& speed, const std::vector<double>& fo
     fit.why_no_knee = above > below ? "the force grows faster at higher speed: progressive"
                                     : "the slope hardly changes";
   if (!fit.knee.is_told()) fit.yield = fit.at_rest;
+  return fit;
+}
+
+KneeFit fit_knee_of_parts(const std::vector<double>& speed, const std::vector<double>& force,
+                          const std::vector<std::size_t>& ends) {
+  constexpr std::size_t kMostGroups = 10;
+  KneeFit fit = fit_knee(speed, force);
+
+  // Neighbouring parts go together where there are many.
+  const std::size_t groups = std::min(ends.size(), kMostGroups);
+  std::vector<KneeFit> without;
+  for (std::size_t group = 0, first = 0; group < groups && groups > 1; ++group) {
+    const std::size_t end = ends[(group + 1) * ends.size() / groups - 1];
+    without.push_back(fit_without(speed, force, first, end));
+    first = end;
+  }
+
+  // Figures of a curve with a knee and of one without are not the same figures.
+  const bool are_alike = std::ranges::all_of(
+      without, [&](const KneeFit& other) { return other.knee.is_told() == fit.knee.is_told(); });
+  for (Measured KneeFit::* number : {&KneeFit::at_rest, &KneeFit::yield, &KneeFit::knee})
+    (fit.*number).error = are_alike ? jackknife_error(without, number) : kNoNumber;
   return fit;
 }
 

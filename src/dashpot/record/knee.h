@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,14 @@ struct KneeFit {
 /// Fits points of speed (m/s, >= 0) and size of force (N), of equal size. A knee is told where two
 /// lines explain the points clearly better than one (F test, 99 %), at least two of distinct speed
 /// lie on either side, and the force grows by less than 0.7 times as much above it. With fewer than
-/// three points nothing is told.
+/// three points nothing is told. The standard errors take the points to scatter independently.
 KneeFit fit_knee(const std::vector<double>& speed, const std::vector<double>& force);
+
+/// The same of points in parts, as those of one cycle of a loop or of one record; ends: behind the
+/// last point of each. What the curve leaves is alike within a part, so that the standard errors
+/// come from how far the numbers go without one part after the other, or one of ten groups of them
+/// (the jackknife). Not known of a single part, nor where the knee comes or goes with one of them.
+KneeFit fit_knee_of_parts(const std::vector<double>& speed, const std::vector<double>& force,
+                          const std::vector<std::size_t>& ends);
 
 }  // namespace dashpot

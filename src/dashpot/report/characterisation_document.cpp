@@ -30,7 +30,7 @@ std::string speed_text(double speed) { return quantity(speed, "m/s"); }
 std::string estimate_text(const Measured& estimate, std::string_view si_unit, int digits = 3) {
   if (!estimate.is_told()) return "-";
   const std::string value = plain_quantity(estimate.value, si_unit, digits);
-  return std::isfinite(estimate.error) ? value + " ± " + quantity(estimate.error, si_unit, 2)
+  return std::isfinite(estimate.error) ? value + " ± " + plain_quantity(estimate.error, si_unit, 2)
                                        : value;
 }
 

@@ -94,7 +94,7 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
       if (!std::isfinite(d.value())) return;
       table.rows.push_back({drive_name(level.drive, unit), what + ' ' + unit_name(si_unit),
                             plain_quantity(d.first, si_unit), plain_quantity(d.second, si_unit),
-                            plain_quantity(d.value(), si_unit), quantity(d.noise, si_unit, 2),
+                            plain_quantity(d.value(), si_unit), plain_quantity(d.noise, si_unit, 2),
                             clear_text(d)});
     };
     add("friction", level.friction, "N");
@@ -106,7 +106,9 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
   }
   table.note =
       "Noise: the standard errors of both; none where a knee is found among speeds in one and in a "
-      "loop in the other, which are not alike. Clear: the difference is more than twice it.";
+      "loop in the other, which are not alike, where one cycle or record less makes another curve, "
+      "and of gas, which holds the zero of the load cell. Clear: the difference is more than twice "
+      "it.";
   shorten(table);
   return table;
 }
