@@ -31,6 +31,13 @@ std::tuple<bool, bool, double> place_of(const InPlantFit& fit) {
           report.road_measured ? worst : report.force_error};
 }
 
+/// Whether even the best of the usual laws leaves more of a sensor than noise and a law of another
+/// structure do.
+bool lacks_all(const InPlantFit& best) {
+  constexpr double kMuch = 20;  // % of the sensor, in free run
+  return best.report.road_measured && worst_of(best) > kMuch;
+}
+
 bool names_none(const std::vector<std::string>& models) {
   return models == std::vector<std::string>{"usual"};
 }
@@ -179,6 +186,10 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   print_document(document, console);
   for (const InPlantFit& one : doubted)
     for (const std::string& warning : one.report.warnings) console.warn(one.model + ": " + warning);
+  if (names_none(settings.fit.models) && lacks_all(fits.front()))
+    console.warn(
+        "none of the usual laws makes this damper: name others, as modified_bouc_wen+network, or "
+        "the file of a law, as examples/laws/duhem.yaml, a hysteresis without a name");
   const fs::path folder = settings.results.folder, models = folder / "models",
                  plants = folder / "plants";
   for (const InPlantFit& one : fits)

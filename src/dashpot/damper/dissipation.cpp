@@ -40,9 +40,11 @@ std::string activity(const Dissipation& result, DriveUnit drive_unit) {
   std::string text = "it feeds energy into motions of " + format_number(result.active_from, 3);
   if (result.active_to > result.active_from) text += " to " + format_number(result.active_to, 3);
   text += " Hz";
-  const std::string worst = " at " + format_number(result.frequency, 3) + " Hz, " +
-                            format_number(1e3 * result.amplitude, 2) + " mm and " +
-                            format_number(result.drive, 3) + " " + to_string(drive_unit);
+  std::string worst = " at " + format_number(result.frequency, 3) + " Hz";
+  worst += (drive_unit == DriveUnit::None ? " and " : ", ") +
+           format_number(1e3 * result.amplitude, 2) + " mm";
+  if (drive_unit != DriveUnit::None)
+    worst += " and " + format_number(result.drive, 3) + " " + to_string(drive_unit);
   if (!std::isfinite(result.share)) return text + ": it diverges" + worst;
   return text + ":" + worst + " it acts as a dashpot of " + format_number(result.damping, 3) +
          " N*s/m";
