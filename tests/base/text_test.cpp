@@ -24,6 +24,16 @@ TEST_CASE("exact text reads back as the same double") {
   CHECK(format_number(3.63e6, 3) == "3.63e+06");
 }
 
+TEST_CASE("plain text has no exponent up to a million") {
+  CHECK(format_plain(20000) == "20000");
+  CHECK(format_plain(123456.7) == "123457");
+  CHECK(format_plain(-1234.5678, 3) == "-1235");
+  CHECK(format_plain(999999.9) == "1000000");
+  CHECK(format_plain(1e6) == "1e+06");
+  CHECK(format_plain(999.6, 3) == "1000");
+  CHECK(format_plain(0.0045123) == "0.004512");
+}
+
 TEST_CASE("split keeps empty parts and join undoes it") {
   CHECK(split("a,,b,", ',') == std::vector<std::string>{"a", "", "b", ""});
   CHECK(join(split("a,,b,", ','), ",") == "a,,b,");

@@ -49,6 +49,13 @@ std::string format_number(double value, int digits) {
   return {buffer.data(), result.ptr};
 }
 
+std::string format_plain(double value, int digits) {
+  const std::string text = format_number(value, digits);
+  const double size = std::abs(value);
+  const bool is_long = text.find('e') != std::string::npos && size >= 1 && size < 1e6;
+  return is_long ? format_number(std::round(value), 7) : text;
+}
+
 std::string lower(std::string_view text) {
   std::string out(text);
   for (char& c : out)

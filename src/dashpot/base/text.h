@@ -16,6 +16,9 @@ std::string format_exact(double value);
 /// `value` with at most `digits` significant digits, for people: 12.3, 0.00451, 3.63e+06.
 std::string format_number(double value, int digits = 4);
 
+/// The same without an exponent up to a million, as people write forces and stiffnesses: 123457.
+std::string format_plain(double value, int digits = 4);
+
 std::string_view trim(std::string_view text);
 std::string lower(std::string_view text);
 std::vector<std::string> split(std::string_view text, char separator);

@@ -65,7 +65,7 @@ std::optional<std::string> shown(std::string_view inside, const PrintUnits& unit
     case Style::Digits:
       return number_text(values[0], wanted);
     case Style::Plain:
-      return plain_text(values[0], wanted);
+      return format_plain(values[0], wanted);
     case Style::Fixed:
       return fmt::format("{:.{}f}", values[0], decimals_in(unit, wanted));
     case Style::Signed:

@@ -21,13 +21,6 @@ std::string number_text(double value, int digits) {
   return std::isfinite(value) ? format_number(value, digits) : "-";
 }
 
-std::string plain_text(double value, int digits) {
-  // From where rounding to the digits would bring an exponent.
-  const double whole = std::min(1000.0, 0.95 * std::pow(10, digits));
-  return std::abs(value) >= whole && std::abs(value) < 1e6 ? fmt::format("{:.0f}", value)
-                                                           : number_text(value, digits);
-}
-
 std::string range_text(double least, double greatest, int digits) {
   const std::string low = number_text(least, digits), high = number_text(greatest, digits);
   return low == high ? low : low + " ... " + high;

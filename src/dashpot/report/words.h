@@ -10,8 +10,6 @@ namespace dashpot {
 std::string percent_text(double value);
 /// `digits` significant digits, or "-" when not finite.
 std::string number_text(double value, int digits = 3);
-/// The same without an exponent up to a million, as people write forces.
-std::string plain_text(double value, int digits = 3);
 /// "12", or "8 ... 12" where the least and the greatest differ as they are printed.
 std::string range_text(double least, double greatest, int digits);
 /// "0.5 A"; without a unit "constant drive", since nothing is known of it.

@@ -26,14 +26,8 @@ double normal_between(double low, double high, double u) {
   return std::clamp(normal_quantile(share), low, high);
 }
 
-/// Four digits, and no exponent up to a million, as people write stiffnesses.
-std::string plain_number(double value) {
-  const double size = std::abs(value);
-  return format_number(value, size >= 1e4 && size < 1e6 ? 6 : 4);
-}
-
 std::string with_unit(double value, const std::string& unit) {
-  return plain_number(value) + (unit == "1" ? "" : " " + unit);
+  return format_plain(value) + (unit == "1" ? "" : " " + unit);
 }
 
 double read_within(const Value& value, const ParameterRow& row) {
@@ -124,16 +118,16 @@ double Distribution::at(double u) const {
 }
 
 std::string Distribution::description(const std::string& unit) const {
-  const std::string range = plain_number(from) + " ... " + with_unit(to, unit);
+  const std::string range = format_plain(from) + " ... " + with_unit(to, unit);
   if (kind == Kind::Uniform) return "uniform, " + range;
   if (kind == Kind::Normal)
-    return "normal, " + plain_number(centre) + " +- " + with_unit(spread, unit) + ", within " +
+    return "normal, " + format_plain(centre) + " +- " + with_unit(spread, unit) + ", within " +
            range;
   if (kind == Kind::LogNormal)
     return "log-normal, median " + with_unit(centre, unit) + ", factor " +
            format_number(std::exp(spread)) + ", within " + range;
   std::vector<std::string> texts;
-  for (const double value : values) texts.push_back(plain_number(value));
+  for (const double value : values) texts.push_back(format_plain(value));
   return "one of " + join(texts, ", ") + (unit == "1" ? "" : " " + unit);
 }
 
