@@ -157,6 +157,10 @@ TEST_CASE("a plant in words: known, unknown, ranges, places and levels") {
   CHECK(contains(wrong("oscillator,mass=1,displacement=x"), "no input is stated"));
   CHECK(contains(wrong("oscillator,mass=1,skip=1,force=u,displacement=x,skip=2"),
                  "--in, skip: is stated twice"));
+  CHECK(contains(wrong("oscillator,mass=1,force=u,displacement=x,mass=unknown"),
+                 "--in, mass: is stated twice"));
+  CHECK(read_in_plant_setup("oscillator,mass=1,force=u,displacement=x,displacement=y")
+            .sensors.size() == 2);
   CHECK(contains(wrong("nowhere.yaml"), "there is no such file"));
 }
 

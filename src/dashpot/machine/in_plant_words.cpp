@@ -321,11 +321,13 @@ std::pair<std::string, std::string> channel_and_place(const std::string& text) {
   return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
 }
 
-/// Channels may share a quantity; what is said of the recordings counts once.
+bool is_drive(const std::string& key) { return key == "current" || key == "voltage"; }
+
+/// Several channels may show one quantity, each at a place of its own; all else is said once.
 void require_said_once(std::vector<std::string> parts, const std::string& where) {
   std::erase_if(parts, [](const std::string& part) {
     const std::string key(trim(part.substr(0, part.find('='))));
-    return key != "held_back" && key != "skip" && key != "start";
+    return find_input(key) || find_quantity(key) || is_drive(key);
   });
   if (const auto twice = stated_twice(parts))
     throw Error(where + ", " + *twice, "is stated twice", "once");
@@ -350,7 +352,7 @@ InPlantSetup from_words(const std::string& words) {
     const std::string at = where + ", " + key;
     if (find_input(key) || find_quantity(key)) {
       channels.emplace_back(key, value);
-    } else if (key == "current" || key == "voltage") {
+    } else if (is_drive(key)) {
       const DriveUnit unit = key == "current" ? DriveUnit::Ampere : DriveUnit::Volt;
       const auto [drive, place] = channel_and_place(value);
       if (setup.drive_unit != DriveUnit::None && (setup.drive_unit != unit || place.empty()))
