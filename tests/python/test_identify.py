@@ -227,6 +227,15 @@ class Estimator(unittest.TestCase):
         self.assertEqual(identifier.report_["status"], "converged")
         self.assertGreater(identifier.model_.score(self.X[0], self.y[0]), 1 - 1e-12)
 
+    def test_a_constant_force_has_the_score_of_scikit_learn(self):
+        identifier = dashpot.Identifier("bingham", starts=1).fit(self.X, self.y)
+        still = np.array([[k / 200, 0.0, 0.0, 0.5] for k in range(100)])
+        force = np.asarray(identifier.predict(still))
+        self.assertEqual(np.ptp(force), 0)
+        self.assertEqual(identifier.score(still, np.full(100, force[0])), 1)
+        for other in (force[0] + 8, 0.1):  # whose mean over the samples is, and is not, quite the same number
+            self.assertEqual(identifier.score(still, np.full(100, other)), 0)
+
     def test_gaps_in_time_begin_a_new_recording(self):
         X, y = self.X[2], self.y[2]
         kept = np.r_[0:150, 250:400]

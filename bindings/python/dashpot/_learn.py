@@ -28,7 +28,10 @@ def parts(X, y):
 
 
 def score(model, X, y, sample_time=None) -> float:
-    """R2 over all samples of all recordings."""
+    """R2 over all samples of all recordings; of a constant force 1 where the model has it exactly, else 0.
+
+    That rule is r2_score's of scikit-learn, force_finite=True: an infinite score would spoil the mean over folds.
+    """
     recordings = parts(X, y)
     measured = np.concatenate([np.asarray(force, float) for _, force in recordings])
     if measured.ndim != 1:
@@ -36,6 +39,8 @@ def score(model, X, y, sample_time=None) -> float:
     modelled = np.concatenate([np.asarray(model.predict(x, sample_time)) for x, _ in recordings])
     if measured.shape != modelled.shape:
         raise _core.Error(f"y has {len(measured)} samples, X {len(modelled)}")
+    if np.ptp(measured) == 0:
+        return float(np.array_equal(measured, modelled))
     return 1 - float(np.sum((measured - modelled) ** 2) / np.sum((measured - np.mean(measured)) ** 2))
 
 
@@ -169,7 +174,7 @@ class Identifier:
         return model.predict(X, self.sample_time)
 
     def score(self, X, y) -> float:
-        """R2 over all samples of all recordings."""
+        """R2 over all samples of all recordings; of a constant force 1 or 0."""
         return score(self._fitted(), X, y, self.sample_time)
 
     def __sklearn_is_fitted__(self) -> bool:
