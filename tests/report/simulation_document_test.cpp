@@ -53,3 +53,25 @@ TEST_CASE("the acceleration of a floor is drawn as it is measured: with the grou
   CHECK_CLOSE(greatest(panel.series.front().y),
               measure_named(simulation.run.measures, "floor_2_acceleration"), 1e-12, 0);
 }
+
+TEST_CASE("each damper and each tyre of a car has a panel, and the ground under each tyre a line") {
+  const GroundPointer ground = make_ground("bump", 1);
+  const auto car = std::make_shared<const Vehicle>(
+      make_vehicle({.plant = "half_car_a", .dampers = {"spencer1997"}, .current = 1}));
+  const Document document =
+      simulation_document({.run = run_vehicle(car, *ground, {.duration = 0.5}),
+                           .ground = ground->description(),
+                           .duration = 0.5,
+                           .discard = 0});
+  const std::vector<DocumentFigure>& figures = document.sections.at(1).figures;
+  std::vector<std::string> titles;
+  for (const FigurePanel& panel : figures.at(0).panels) titles.push_back(panel.title);
+  CHECK(titles == std::vector<std::string>{"Ground", "body, acceleration", "front_tyre, load",
+                                           "rear_tyre, load", "front, deflection",
+                                           "rear, deflection", "front, damper force",
+                                           "rear, damper force", "front, drive", "rear, drive"});
+  REQUIRE(figures.at(0).panels.front().series.size() == 2);
+  CHECK(figures.at(0).panels.front().series[1].label == "under rear_tyre");
+  REQUIRE(figures.at(1).panels.size() == 2);
+  CHECK(figures.at(1).panels[1].title == "rear");
+}

@@ -8,6 +8,7 @@
 #include "dashpot/report/ride_figures.h"
 #include "dashpot/report/ride_parts.h"
 #include "dashpot/report/words.h"
+#include "dashpot/suspension/trace.h"
 
 namespace dashpot {
 namespace {
@@ -24,23 +25,25 @@ std::vector<const RiddenVehicle*> all_of(const RideStudy& study) {
 }
 
 DocumentTable road_table(const RideStudy& study) {
-  const auto number = [](const char* title, int priority = 0) {
+  const Plant& plant = study.plant();
+  const auto number = [](const std::string& title, int priority = 0) {
     return TextColumn{.title = title, .numeric = true, .priority = priority};
   };
   DocumentTable table{.title = "On the road",
                       .columns = {{.title = "controller"},
                                   number("a_w, m/s^2"),
                                   number("ratio"),
-                                  number("tyre load, %"),
+                                  number(foot_of(plant) + " load, %"),
                                   number("ratio"),
                                   number("travel, mm"),
                                   number("ratio"),
                                   number("contact lost, %", 1),
                                   number("drive, %", 2)},
                       .rows = {},
-                      .note = "Ratios to " + study.passive.name() +
-                              ". a_w: weighted body acceleration, Wk. Tyre load: dynamic over "
-                              "static, rms. Travel: greatest."};
+                      .note = "Ratios to " + study.passive.name() + ". a_w: weighted " +
+                              plant.coordinates.front().name +
+                              " acceleration, Wk. Load: dynamic over static, rms. Travel: "
+                              "greatest."};
 
   // Each measure with its ratio to passive.
   for (const RiddenVehicle* one : all_of(study)) {
@@ -90,7 +93,7 @@ DocumentTable possible_table(const RideStudy& study) {
                       .note = possible_note(study)};
 
   // Each vehicle by the squares of its own ride.
-  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const Plant& plant = study.plant();
   const ClairvoyantBound &comfort = study.front.front(), &holding = study.front.back();
   const RideSquares passive = ride_squares(study.passive.road.trace, plant);
   for (const RiddenVehicle* one : all_of(study)) {
@@ -128,15 +131,17 @@ std::vector<std::size_t> shown_frequencies(const std::vector<double>& f) {
 }
 
 DocumentTable gain_table(const RideStudy& study) {
+  const Plant& plant = study.plant();
+  const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name;
   DocumentTable table{
       .title = "On sines of " + format_number(1000 * study.options.gains.amplitude) + " mm",
       .columns = {{.title = "controller"}},
       .rows = {},
-      .note =
-          "Gain from the road's height to the body's acceleration at that frequency, 1/s^2 "
-          "(fundamental). Jc, Jrh: root of the integral of the squared gain of body acceleration "
-          "and of tyre deflection over these frequencies, as ratios to " +
-          study.passive.name() + "."};
+      .note = "Gain from the road's height to " + body +
+              " acceleration at that frequency, 1/s^2 "
+              "(fundamental). Jc, Jrh: root of the integral of the squared gain of " +
+              body + " acceleration and of " + tyre +
+              " deflection over these frequencies, as ratios to " + study.passive.name() + "."};
   const std::vector<double>& f = study.options.frequencies;
   const std::vector<std::size_t> shown = shown_frequencies(f);
   for (const std::size_t k : shown)
@@ -158,12 +163,15 @@ DocumentTable gain_table(const RideStudy& study) {
 
 /// The one-sensor paper's two wishes of a controller.
 DocumentTable limit_table(const RideStudy& study) {
+  const Plant& plant = study.plant();
   DocumentTable table{
       .title = "The one-sensor paper's limits",
       .columns = {{.title = "controller"},
-                  {.title = "body acceleration to 2 Hz, greatest gain", .numeric = true},
+                  {.title = plant.coordinates.front().name + " acceleration to 2 Hz, greatest gain",
+                   .numeric = true},
                   {.title = "below passive"},
-                  {.title = "tyre deflection, greatest gain", .numeric = true},
+                  {.title = plant.tyres.front().name + " deflection, greatest gain",
+                   .numeric = true},
                   {.title = "at most 2.5"}},
       .rows = {},
       .note =
@@ -187,18 +195,20 @@ DocumentTable limit_table(const RideStudy& study) {
 }
 
 DocumentTable step_table(const RideStudy& study) {
+  const Plant& plant = study.plant();
+  const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name;
   DocumentTable table{
       .title = "After a step of " + format_number(1000 * study.options.step_height) + " mm",
       .columns = {{.title = "controller"}},
       .rows = {},
       .note = "Ratios to " + study.passive.name() +
-              ". Settled: the last instant outside 5 % of the peak (body acceleration) or of the "
-              "step (tyre); '-' where the run ends outside."};
-  const std::pair<const char*, const char*> measures[] = {
-      {"settling", "body settled, s"},
-      {"deviation", "body acceleration, greatest, m/s^2"},
-      {"tyre_settling", "tyre settled, s"},
-      {"body_acceleration", "body acceleration, rms, m/s^2"}};
+              ". Settled: the last instant outside 5 % of the peak (" + body +
+              " acceleration) or of the step (" + tyre + "); '-' where the run ends outside."};
+  const std::pair<std::string, std::string> measures[] = {
+      {"settling", body + " settled, s"},
+      {"deviation", body + " acceleration, greatest, m/s^2"},
+      {"tyre_settling", tyre + " settled, s"},
+      {body + "_acceleration", body + " acceleration, rms, m/s^2"}};
   for (const auto& [name, title] : measures) {
     table.columns.push_back({.title = title, .numeric = true});
     table.columns.push_back({.title = "ratio", .numeric = true, .priority = 1});
@@ -234,7 +244,8 @@ std::string better_held(const RideStudy& study, const RiddenVehicle& one) {
   return " Held at " +
          (unit == DriveUnit::None ? "drive " + drive : drive + ' ' + to_string(unit)) +
          ", without control, the same dampers are better in both than " + one.name() + ": a_w " +
-         number_text(best->weighted, 3) + " m/s^2, tyre load " + number_text(best->tyre, 3) + " %.";
+         number_text(best->weighted, 3) + " m/s^2, " + foot_of(study.plant()) + " load " +
+         number_text(best->tyre, 3) + " %.";
 }
 
 std::string verdict_of(const RideStudy& study) {
@@ -249,8 +260,8 @@ std::string verdict_of(const RideStudy& study) {
   };
   const auto sentence = [&](const RiddenVehicle& one, const char* what) {
     return what + one.name() + ": " + change(one, "weighted_acceleration") +
-           " weighted acceleration, " + change(one, "tyre_load") +
-           " dynamic tyre load than passive.";
+           " weighted acceleration, " + change(one, "tyre_load") + " dynamic " +
+           foot_of(study.plant()) + " load than passive.";
   };
 
   // One sentence where the same controller is best in both, the passive damper among them: the

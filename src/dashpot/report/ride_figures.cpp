@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/report/front_parts.h"
 #include "dashpot/report/ride_parts.h"
+#include "dashpot/suspension/trace.h"
 
 namespace dashpot {
 namespace {
@@ -61,14 +62,12 @@ FigureSeries dot(const std::string& label, const std::string& colour, double x, 
   return {label, colour, {x}, {y}, FigureSeries::Mark::Dots, size};
 }
 
-FigurePanel time_panel(const std::vector<Drawn>& vehicles, const SimulatedRun RiddenVehicle::* run,
-                       const std::string& channel, const FigurePanel& titles,
-                       const Stretch& stretch) {
-  FigurePanel panel = titles;
-  const double factor = titles.y_label == "mm" ? 1000 : 1;
-  for (const auto& [ridden, look] : vehicles)
-    panel.series.push_back(over_time(ridden->*run, channel, factor, stretch, look));
-  return panel;
+/// One run of each of these vehicles.
+std::vector<DrawnRun> runs_of(const std::vector<Drawn>& vehicles,
+                              const SimulatedRun RiddenVehicle::* run) {
+  std::vector<DrawnRun> runs;
+  for (const auto& [ridden, look] : vehicles) runs.push_back({&(ridden->*run), look});
+  return runs;
 }
 
 }  // namespace
@@ -82,25 +81,30 @@ double greatest_gain(const RiddenVehicle& ridden, Gain GainPoint::* signal, doub
 
 DocumentFigure gain_figure(const RideStudy& study) {
   const std::vector<double>& f = study.options.frequencies;
+  const Plant& plant = study.plant();
   const auto &body = &GainPoint::body_acceleration, &tyre = &GainPoint::tyre_deflection;
+  const std::string &body_name = plant.coordinates.front().name,
+                    &tyre_name = plant.tyres.front().name;
+  const std::string acceleration = body_name + ", acceleration";
   std::vector<FigurePanel> panels;
 
   // The signals that the paper limits, each with its limit.
-  panels.push_back(gain_panel(study, "Body acceleration", "gain, 1/s^2", fundamental(body)));
+  panels.push_back(gain_panel(study, acceleration, "gain, 1/s^2", fundamental(body)));
   panels.push_back(
-      gain_panel(study, "Body acceleration at its resonance", "gain, 1/s^2", fundamental(body), 4));
+      gain_panel(study, acceleration + " at its resonance", "gain, 1/s^2", fundamental(body), 4));
   panels.back().series.push_back(limit_line("passive, greatest to 2 Hz", f.front(), kPaperComfortTo,
                                             greatest_gain(study.passive, body, kPaperComfortTo)));
-  panels.push_back(gain_panel(study, "Tyre deflection", "gain", fundamental(tyre)));
+  panels.push_back(gain_panel(study, tyre_name + ", deflection", "gain", fundamental(tyre)));
   panels.back().series.push_back(limit_line("one-sensor paper: 2.5 at most", f.front(),
                                             std::min(f.back(), kPaperHoldingTo),
                                             kPaperHoldingLimit));
 
   // Signals without a limit, and the harmonics that a law adds.
   panels.push_back(
-      gain_panel(study, "Body displacement", "gain", fundamental(&GainPoint::body), 5));
-  panels.push_back(gain_panel(study, "Travel", "gain", fundamental(&GainPoint::travel)));
-  panels.push_back(gain_panel(study, "Body acceleration: variance over fundamental gain", "ratio",
+      gain_panel(study, body_name + ", displacement", "gain", fundamental(&GainPoint::body), 5));
+  panels.push_back(gain_panel(study, plant.struts.front().name + ", travel", "gain",
+                              fundamental(&GainPoint::travel)));
+  panels.push_back(gain_panel(study, acceleration + ": variance over fundamental gain", "ratio",
                               [](const GainPoint& point) {
                                 return point.body_acceleration.variance /
                                        point.body_acceleration.fundamental;
@@ -115,10 +119,12 @@ DocumentFigure gain_figure(const RideStudy& study) {
 }
 
 DocumentFigure chirp_figure(const RideStudy& study) {
+  const Plant& plant = study.plant();
+  const std::string body = plant.coordinates.front().name, tyre = plant.tyres.front().name;
   std::vector<FigurePanel> panels;
   for (const auto& [signal, title, unit] :
-       {std::tuple{&GainPoint::body_acceleration, "Body acceleration", "gain, 1/s^2"},
-        std::tuple{&GainPoint::tyre_deflection, "Tyre deflection", "gain"}}) {
+       {std::tuple{&GainPoint::body_acceleration, body + ", acceleration", "gain, 1/s^2"},
+        std::tuple{&GainPoint::tyre_deflection, tyre + ", deflection", "gain"}}) {
     FigurePanel panel{title, "frequency, Hz", unit, {}};
 
     // The chirp as a line, the sines as dots on it.
@@ -146,10 +152,12 @@ DocumentFigure trade_off_figure(const RideStudy& study) {
     return measure_named(one.road.measures, "tyre_load");
   };
   const double x0 = x(study.passive), y0 = y(study.passive);
-  FigurePanel panel{"",
-                    "weighted body acceleration, ratio to passive",
-                    "dynamic tyre load, ratio to passive",
-                    {}};
+  const Plant& plant = study.plant();
+  FigurePanel panel{
+      "",
+      "weighted " + plant.coordinates.front().name + " acceleration, ratio to passive",
+      "dynamic " + foot_of(plant) + " load, ratio to passive",
+      {}};
 
   // The dampers held at each drive, as a line with its points.
   FigureSeries line{"held without control", "series-6", {}, {}, FigureSeries::Mark::Line, 1.4};
@@ -176,7 +184,7 @@ DocumentFigure trade_off_figure(const RideStudy& study) {
 }
 
 DocumentFigure possible_figure(const RideStudy& study) {
-  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const Plant& plant = study.plant();
   const auto roots = [&](const RiddenVehicle& one) {
     const RideSquares squares = ride_squares(one.road.trace, plant);
     return RideRoots{std::sqrt(squares.acceleration), std::sqrt(squares.tyre_force)};
@@ -215,38 +223,38 @@ DocumentFigure road_figure(const RideStudy& study) {
   shown.push_back(all[static_cast<std::size_t>(comfort) + 1]);
   if (holding != comfort) shown.push_back(all[static_cast<std::size_t>(holding) + 1]);
 
-  // A few seconds after the start, in four channels.
-  const Plant& plant = study.passive.road.vehicle->set.plant;
-  const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name,
-                    &strut = plant.struts.front().name;
+  // A few seconds after the start.
+  const Plant& plant = study.plant();
+  const std::string& body = plant.coordinates.front().name;
   const double duration = study.options.road_duration;
   const Stretch stretch = shown_stretch(duration, std::max(0.0, std::min(5.0, duration - 5)));
-  const auto panel = [&](const std::string& channel, const char* title, const char* unit) {
-    return time_panel(shown, &RiddenVehicle::road, channel, {title, "time, s", unit, {}}, stretch);
-  };
-  return {
-      "road",
-      "A stretch of the road",
-      "Passive, the most comfortable and the best on the road.",
-      {panel(body + "_acceleration", "Body acceleration", "m/s^2"),
-       panel(tyre + "_load", "Tyre load", "N"), panel(strut + "_deflection", "Deflection", "mm"),
-       panel(strut + "_force", "Damper force", "N")},
-      2};
+  const std::vector<DrawnRun> runs = runs_of(shown, &RiddenVehicle::road);
+  DocumentFigure figure{.name = "road",
+                        .title = "A stretch of the road",
+                        .caption = "Passive, the most comfortable and the best on the road.",
+                        .panels = {channel_panel(runs, body + "_acceleration",
+                                                 body + ", acceleration", "m/s^2", stretch)},
+                        .columns = 2};
+  for (FigurePanel& panel : tyre_and_strut_panels(runs, plant, stretch))
+    figure.panels.push_back(std::move(panel));
+  return figure;
 }
 
 DocumentFigure step_figure(const RideStudy& study) {
-  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const Plant& plant = study.plant();
+  const std::string& body = plant.coordinates.front().name;
   const Stretch stretch{0, 2};
-  const auto panel = [&](const std::string& channel, const char* title, const char* unit) {
-    return time_panel(drawn(study), &RiddenVehicle::step, channel, {title, "time, s", unit, {}},
-                      stretch);
-  };
-  return {"step",
-          "After the step",
-          "The road rises at 0 s, at once.",
-          {panel(plant.coordinates.front().name + "_acceleration", "Body acceleration", "m/s^2"),
-           panel(plant.tyres.front().name + "_deflection", "Tyre deflection", "mm")},
-          2};
+  const std::vector<DrawnRun> runs = runs_of(drawn(study), &RiddenVehicle::step);
+  DocumentFigure figure{.name = "step",
+                        .title = "After the step",
+                        .caption = "The road rises at 0 s, at once.",
+                        .panels = {channel_panel(runs, body + "_acceleration",
+                                                 body + ", acceleration", "m/s^2", stretch)},
+                        .columns = 2};
+  for (const Tyre& tyre : plant.tyres)
+    figure.panels.push_back(
+        channel_panel(runs, tyre.name + "_deflection", tyre.name + ", deflection", "m", stretch));
+  return figure;
 }
 
 }  // namespace dashpot

@@ -28,14 +28,8 @@ Stretch shown_stretch(double duration, double discard) {
                      : Stretch{0, duration};
 }
 
-FigureSeries over_time(const SimulatedRun& run, const std::string& channel, double factor,
-                       const Stretch& stretch, const FigureSeries& look) {
-  const Record& trace = run.trace.record;
-  return over_time(trace.time, trace.channel(channel).samples, factor, stretch, look);
-}
-
 FigureSeries over_time(const std::vector<double>& time, const std::vector<double>& samples,
-                       double factor, const Stretch& stretch, const FigureSeries& look) {
+                       const Stretch& stretch, const FigureSeries& look) {
   constexpr std::size_t kPoints = 3000;
   FigureSeries series = look;
   const auto place = [&](double t) {
@@ -48,9 +42,35 @@ FigureSeries over_time(const std::vector<double>& time, const std::vector<double
   const std::span<const double> shown = std::span(samples).subspan(first, last - first);
   for (const std::size_t k : thinned_indices({shown}, kPoints)) {
     series.x.push_back(time[first + k]);
-    series.y.push_back(factor * shown[k]);
+    series.y.push_back(shown[k]);
   }
   return series;
+}
+
+FigurePanel channel_panel(const std::vector<DrawnRun>& runs, const std::string& channel,
+                          const std::string& title, const std::string& si_unit,
+                          const Stretch& stretch) {
+  FigurePanel panel{
+      .title = title, .x_label = "time, s", .y_label = {}, .series = {}, .y_unit = si_unit};
+  for (const auto& [run, look] : runs)
+    if (const Channel* found = run->trace.record.find(channel))
+      panel.series.push_back(over_time(run->trace.record.time, found->samples, stretch, look));
+  return panel;
+}
+
+std::vector<FigurePanel> tyre_and_strut_panels(const std::vector<DrawnRun>& runs,
+                                               const Plant& plant, const Stretch& stretch) {
+  std::vector<FigurePanel> panels;
+  const auto add = [&](const std::string& part, const char* ending, const char* what,
+                       const char* si_unit) {
+    panels.push_back(channel_panel(runs, part + ending, part + what, si_unit, stretch));
+  };
+
+  // Alike things stand side by side: front and rear, left and right.
+  for (const Tyre& tyre : plant.tyres) add(tyre.name, "_load", ", load", "N");
+  for (const Strut& strut : plant.struts) add(strut.name, "_deflection", ", deflection", "m");
+  for (const Strut& strut : plant.struts) add(strut.name, "_force", ", damper force", "N");
+  return panels;
 }
 
 std::string ratio_text(double value, double reference) {

@@ -20,12 +20,22 @@ struct Stretch {
 /// of another one.
 Stretch shown_stretch(double duration, double discard);
 
-/// A channel over time, thinned to what a screen can show; `factor` as the axis has it.
-FigureSeries over_time(const SimulatedRun& run, const std::string& channel, double factor,
-                       const Stretch& stretch, const FigureSeries& look);
-/// The same of samples at these times, s.
+/// Samples at these times, s, thinned to what a screen can show.
 FigureSeries over_time(const std::vector<double>& time, const std::vector<double>& samples,
-                       double factor, const Stretch& stretch, const FigureSeries& look);
+                       const Stretch& stretch, const FigureSeries& look);
+
+/// A run as figures draw it.
+struct DrawnRun {
+  const SimulatedRun* run;
+  FigureSeries look;
+};
+/// One channel of these runs over time; those that lack it are left out. `si_unit`: of the channel.
+FigurePanel channel_panel(const std::vector<DrawnRun>& runs, const std::string& channel,
+                          const std::string& title, const std::string& si_unit,
+                          const Stretch& stretch);
+/// For each tyre its load; for each strut its deflection, and for each its force.
+std::vector<FigurePanel> tyre_and_strut_panels(const std::vector<DrawnRun>& runs,
+                                               const Plant& plant, const Stretch& stretch);
 
 /// "0.97"; "-" where there is no ratio.
 std::string ratio_text(double value, double reference);

@@ -16,13 +16,8 @@ namespace {
 constexpr double kMillimetres = 1000;  // per metre
 
 /// The runs as figures show them: the reference below.
-struct Shown {
-  const SimulatedRun* run;
-  FigureSeries look;
-};
-
-std::vector<Shown> shown_runs(const Simulation& s) {
-  std::vector<Shown> runs;
+std::vector<DrawnRun> drawn_runs(const Simulation& s) {
+  std::vector<DrawnRun> runs;
   if (s.against) runs.push_back({&*s.against, passive_look(s.against->name)});
   runs.push_back({&s.run, controller_look(s.run.name, 0)});
   return runs;
@@ -69,24 +64,30 @@ DocumentTable measure_table(const Simulation& s) {
 
 FigurePanel time_panel(const Simulation& s, const std::string& channel, const std::string& title,
                        const std::string& si_unit) {
-  FigurePanel panel{
-      .title = title, .x_label = "time, s", .y_label = {}, .series = {}, .y_unit = si_unit};
-  for (const auto& [run, look] : shown_runs(s))
-    if (run->trace.record.find(channel))
-      panel.series.push_back(
-          over_time(*run, channel, 1, shown_stretch(s.duration, s.discard), look));
-  return panel;
+  return channel_panel(drawn_runs(s), channel, title, si_unit,
+                       shown_stretch(s.duration, s.discard));
 }
 
-/// The motion of the ground, which is the same for both runs.
-FigurePanel ground_panel(const Simulation& s, const std::string& channel,
-                         const std::string& si_unit) {
-  const FigureSeries look{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
-  return {.title = "Ground",
-          .x_label = "time, s",
-          .y_label = {},
-          .series = {over_time(s.run, channel, 1, shown_stretch(s.duration, s.discard), look)},
-          .y_unit = si_unit};
+/// The motion of the ground, which is the same for both runs: under each of several tyres.
+FigurePanel ground_panel(const Simulation& s) {
+  const std::vector<Tyre>& tyres = s.run.vehicle->set.plant.tyres;
+  const FigureSeries alone{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
+  const auto panel_of = [&](const std::string& channel, const char* si_unit,
+                            const FigureSeries& look) {
+    return channel_panel({{&s.run, look}}, channel, "Ground", si_unit,
+                         shown_stretch(s.duration, s.discard));
+  };
+  if (tyres.empty()) return panel_of("ground_acceleration", "m/s^2", alone);
+  FigurePanel panel = panel_of(tyres.front().name + "_road", "m", alone);
+  if (tyres.size() == 1) return panel;
+
+  // The colours of the runs stay theirs.
+  panel.series.clear();
+  for (std::size_t k = 0; k < tyres.size(); ++k) {
+    const FigureSeries look = controller_look("under " + tyres[k].name, k + 1);
+    panel.series.push_back(panel_of(tyres[k].name + "_road", "m", look).series.front());
+  }
+  return panel;
 }
 
 /// The acceleration of a floor with the ground's, of which the measures are.
@@ -96,13 +97,13 @@ FigurePanel floor_acceleration_panel(const Simulation& s, const std::string& flo
                     .y_label = {},
                     .series = {},
                     .y_unit = "m/s^2"};
-  for (const auto& [run, look] : shown_runs(s)) {
+  for (const auto& [run, look] : drawn_runs(s)) {
     const Record& trace = run->trace.record;
     std::vector<double> absolute = trace.channel(floor + "_acceleration").samples;
     const std::vector<double>& ground = trace.channel("ground_acceleration").samples;
     for (std::size_t k = 0; k < absolute.size(); ++k) absolute[k] += ground[k];
     panel.series.push_back(
-        over_time(trace.time, absolute, 1, shown_stretch(s.duration, s.discard), look));
+        over_time(trace.time, absolute, shown_stretch(s.duration, s.discard), look));
   }
   return panel;
 }
@@ -112,60 +113,63 @@ bool is_driven(const Vehicle& vehicle) {
 }
 
 std::vector<FigurePanel> time_panels(const Simulation& s) {
-  const Vehicle& vehicle = *s.run.vehicle;
-  const Plant& plant = vehicle.set.plant;
-  const std::string strut = plant.struts.empty() ? "" : plant.struts.front().name;
-  std::vector<FigurePanel> panels;
+  const Plant& plant = s.run.vehicle->set.plant;
+  std::vector<FigurePanel> panels{ground_panel(s)};
   if (plant.tyres.empty()) {
     const std::string top = plant.coordinates.back().name;
-    panels.push_back(ground_panel(s, "ground_acceleration", "m/s^2"));
     panels.push_back(time_panel(s, top, top + ", displacement", "m"));
     panels.push_back(floor_acceleration_panel(s, top));
   } else {
-    const std::string body = plant.coordinates.front().name, tyre = plant.tyres.front().name;
-    panels.push_back(ground_panel(s, tyre + "_road", "m"));
+    const std::string body = plant.coordinates.front().name;
     panels.push_back(time_panel(s, body + "_acceleration", body + ", acceleration", "m/s^2"));
-    panels.push_back(time_panel(s, tyre + "_load", tyre + ", load", "N"));
   }
+  for (FigurePanel& panel :
+       tyre_and_strut_panels(drawn_runs(s), plant, shown_stretch(s.duration, s.discard)))
+    panels.push_back(std::move(panel));
 
-  // The damper itself, where there is one.
-  if (strut.empty()) return panels;
-  panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "m"));
-  panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
-  if (is_driven(vehicle)) {
-    const std::string unit =
-        vehicle.drive_unit == DriveUnit::None ? "0 to 1" : to_string(vehicle.drive_unit);
-    panels.push_back(time_panel(s, strut + "_current", strut + ", drive", unit));
-    if (s.against && !is_driven(*s.against->vehicle))
-      panels.back().series.erase(panels.back().series.begin());
-  }
+  // The drives of the dampers that have one.
+  std::vector<DrawnRun> driven = drawn_runs(s);
+  std::erase_if(driven, [](const DrawnRun& one) { return !is_driven(*one.run->vehicle); });
+  if (!is_driven(*s.run.vehicle)) return panels;
+  const DriveUnit drive = s.run.vehicle->drive_unit;
+  const std::string unit = drive == DriveUnit::None ? "0 to 1" : to_string(drive);
+  for (const Strut& strut : plant.struts)
+    panels.push_back(channel_panel(driven, strut.name + "_current", strut.name + ", drive", unit,
+                                   shown_stretch(s.duration, s.discard)));
   return panels;
 }
 
-/// The work of the damper: force over velocity.
+/// The work of each damper: force over velocity.
 DocumentFigure work_figure(const Simulation& s) {
-  FigurePanel panel{.title = {},
-                    .x_label = "velocity",
-                    .y_label = "damper force",
-                    .series = {},
-                    .x_unit = "m/s",
-                    .y_unit = "N"};
-  const std::string& strut = s.run.vehicle->set.plant.struts.front().name;
+  const std::vector<Strut>& struts = s.run.vehicle->set.plant.struts;
+  DocumentFigure figure{.name = "force-velocity",
+                        .title = struts.size() == 1 ? "The damper at work" : "The dampers at work",
+                        .caption = "Force over velocity, sample by sample.",
+                        .panels = {},
+                        .columns = std::min<std::size_t>(2, struts.size())};
+  for (const Strut& strut : struts) {
+    FigurePanel& panel =
+        figure.panels.emplace_back(FigurePanel{.title = struts.size() == 1 ? "" : strut.name,
+                                               .x_label = "velocity",
+                                               .y_label = "damper force",
+                                               .series = {},
+                                               .x_unit = "m/s",
+                                               .y_unit = "N"});
 
-  // A few thousand samples of each run are enough to see the curve.
-  for (const auto& [run, look] : shown_runs(s)) {
-    FigureSeries dots = look;
-    dots.mark = FigureSeries::Mark::Dots;
-    const std::vector<double>&v = run->trace.record.channel(strut + "_velocity").samples,
-          &f = run->trace.record.channel(strut + "_force").samples;
-    for (std::size_t k = 0; k < v.size(); k += v.size() / 4000 + 1) {
-      dots.x.push_back(v[k]);
-      dots.y.push_back(f[k]);
+    // A few thousand samples of each run are enough to see the curve.
+    for (const auto& [run, look] : drawn_runs(s)) {
+      FigureSeries dots = look;
+      dots.mark = FigureSeries::Mark::Dots;
+      const std::vector<double>&v = run->trace.record.channel(strut.name + "_velocity").samples,
+            &f = run->trace.record.channel(strut.name + "_force").samples;
+      for (std::size_t k = 0; k < v.size(); k += v.size() / 4000 + 1) {
+        dots.x.push_back(v[k]);
+        dots.y.push_back(f[k]);
+      }
+      panel.series.push_back(std::move(dots));
     }
-    panel.series.push_back(std::move(dots));
   }
-  return {
-      "force-velocity", "The damper at work", "Force over velocity, sample by sample.", {panel}};
+  return figure;
 }
 
 /// "drift at most 1.57 mm (floor_2), 71 % less": of the measures FLOOR_drift of all floors.

@@ -98,6 +98,20 @@ TEST_CASE("the page of a ride has a section each for road, frequency and step") 
   CHECK(page.verdict.find("mix1: ") != std::string::npos);
 }
 
+TEST_CASE("a ride on a seat is told of the seat and of who sits on it") {
+  RideStudyOptions options = small_study();
+  options.vehicle = {.plant = "boileau_rakheja1998", .dampers = {"spencer1997"}};
+  options.controllers = {"skyhook"};
+  options.frequencies = {8};
+  const Document page = ride_document(study_ride(options));
+  CHECK(contains(page.verdict, "dynamic seat load than passive"));
+  CHECK(page.sections[0].tables[0].columns[3].title == "seat load, %");
+  CHECK(page.sections[0].figures[1].panels[1].title == "seat, load");
+  const DocumentTable& step = page.sections[2].tables[0];
+  CHECK(step.columns[7].title == "thigh acceleration, rms, m/s^2");
+  CHECK(step.rows[0][7] != "-");
+}
+
 TEST_CASE("with a bound the page shows what is possible, and no controller is beyond it" *
           doctest::test_suite("long")) {
   RideStudyOptions options = small_study();

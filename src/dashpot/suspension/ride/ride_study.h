@@ -53,6 +53,7 @@ struct RideStudy {
   /// alone.
   std::vector<ClairvoyantBound> front;
   StrutMotion bounded;  ///< the bounds hold for rides that stay within; infinite: for all rides
+  const Plant& plant() const { return passive.road.vehicle->set.plant; }
 };
 
 /// Throws Error where the plant has no tyres, where its dampers cannot be driven, at unknown words,
