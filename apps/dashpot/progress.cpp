@@ -40,6 +40,7 @@ void ProgressLine::show(const Progress& progress) {
   if (!started_) {
     started_ = true;
     start_ = now;
+    start_fraction_ = progress.fraction;
     last_ = width_ > 0 ? now - kRedraw : now;
   }
 
@@ -51,8 +52,8 @@ void ProgressLine::show(const Progress& progress) {
     fmt::print(stderr, "\r\x1b[K{}", bar(progress));
     drawn_ = true;
   } else {
-    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * std::clamp(progress.fraction, 0.0, 1.0),
-               progress.stage);
+    const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
+    fmt::print(stderr, "{:3.0f} %{}  {}\n", 100 * fraction, remaining(fraction), progress.stage);
   }
 
   std::fflush(stderr);
@@ -76,9 +77,11 @@ std::string ProgressLine::bar(const Progress& progress) const {
 }
 
 std::string ProgressLine::remaining(double fraction) const {
+  // What was done before, as rides that are kept, took no time of this run.
+  const double done = fraction - start_fraction_, left = 1 - fraction;
   const Clock::duration spent = last_ - start_;
-  if (spent < kSettle || fraction < 0.02) return {};
-  const double seconds = std::chrono::duration<double>(spent).count() * (1 - fraction) / fraction;
+  if (spent < kSettle || !(left > 0) || done < 0.02 * (done + left)) return {};
+  const double seconds = std::chrono::duration<double>(spent).count() * left / done;
   if (seconds < 90) return fmt::format(" {:.0f} s left", std::ceil(seconds));
   return fmt::format(" {:.0f} min left", std::ceil(seconds / 60));
 }

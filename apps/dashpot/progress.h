@@ -7,7 +7,8 @@
 namespace dashpot::cli {
 
 /// Shows the progress of work on stderr: one line that redraws itself on a terminal, plain lines
-/// every few seconds in a log, or lines of JSON for a program that draws it.
+/// every few seconds in a log, or lines of JSON for a program that draws it. The first two say how
+/// much time is left, as soon as that can be told.
 class ProgressLine {
  public:
   /// width: columns of the terminal; 0: a log.
@@ -29,6 +30,7 @@ class ProgressLine {
   bool drawn_ = false;
   bool started_ = false;
   Clock::time_point start_, last_, last_cost_;
+  double start_fraction_ = 0;  ///< of the work that was done by start_
 };
 
 }  // namespace dashpot::cli

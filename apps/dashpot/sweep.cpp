@@ -97,9 +97,11 @@ int run_sweep(const SweepSettings& settings, Console& console) {
     return kDone;
   }
 
-  // A folder that cannot be written is found out before the sweep, not after it.
+  // A folder that cannot be written is found out before the sweep, not after it, and so is a
+  // program for the tables that does not run; a part of a sweep needs none.
   const SweepRequest request = requested(settings);
   prepare_study(settings.results);
+  if (part.is_all() && !ranks().is_worker()) require_hdf5();
 
   try {
     const fs::path file = store_file(settings);

@@ -45,6 +45,19 @@ TEST_CASE("sweep: a table, a page, rides as CSV and HDF5; more samples go on fro
   CHECK(run_dashpot(sweep_of("--samples 2 --seed 2 --fresh" + output)).exit_code == 0);
 }
 
+TEST_CASE("sweep: a program for its tables that does not run is told before anything rides") {
+  const TemporaryFolder folder;
+  const fs::path broken = folder.write("dashpot-hdf5", "#!/bin/sh\nexit 3\n");
+  fs::permissions(broken, fs::perms::owner_all);
+  const ProgramResult result =
+      run_dashpot(sweep_of("--samples 2 --output " + (folder.path() / "out").string()),
+                  "env DASHPOT_PROGRAMS=" + folder.path().string());
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.output, "dashpot-hdf5: did not make the file: it ended with status 3"));
+  CHECK(!fs::exists(folder.path() / "out" / "sweep.sqlite"));
+}
+
 TEST_CASE(
     "sweep: killed at random moments, it goes on, and the tables are the same to the last bit" *
     doctest::test_suite("long")) {

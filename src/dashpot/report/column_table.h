@@ -37,5 +37,7 @@ std::string csv_table(const ColumnTable& table);
 /// the file cannot be written.
 void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
                 const std::vector<std::pair<std::string, std::string>>& attributes);
+/// Throws Error where write_hdf5() could write nothing, whatever the path: long work asks first.
+void require_hdf5();
 
 }  // namespace dashpot

@@ -5,9 +5,10 @@
 #include "dashpot/report/column_table.h"
 
 namespace dashpot {
+namespace {
 
-void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
-                const std::vector<std::pair<std::string, std::string>>& attributes) {
+std::string hdf5_bytes(const std::vector<ColumnTable>& tables,
+                       const std::vector<std::pair<std::string, std::string>>& attributes) {
   PackedBytes request;
   request.add(attributes.size());
   for (const auto& [name, text] : attributes) request.add(name), request.add(text);
@@ -24,13 +25,22 @@ void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable
     }
   }
 
+  return made_file("write-hdf5", request.bytes());
+}
+
+}  // namespace
+
+void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
+                const std::vector<std::pair<std::string, std::string>>& attributes) {
   std::string bytes;
   try {
-    bytes = made_file("write-hdf5", request.bytes());
+    bytes = hdf5_bytes(tables, attributes);
   } catch (const Error& failure) {
     throw Error(path.string(), std::string("cannot be written: ") + failure.what());
   }
   write_file(path, bytes);
 }
+
+void require_hdf5() { hdf5_bytes({}, {}); }
 
 }  // namespace dashpot
