@@ -353,7 +353,7 @@ Document observe_document(const ObserveReport& report, const std::vector<PlantRe
     const ObservedQuantity& force = report.recordings.front().quantities[d];
     const bool is_one = report.struts.size() == 1;
     document.verdict += fmt::format(
-        "{}The force of the {}damper ({}) is estimated with a {} % band of +-{} {}, {}{}.",
+        "{}The force of the {}damper ({}) is estimated with a {} % band of ±{} {}, {}{}.",
         d > 0 ? " " : "", is_one ? "" : report.struts[d] + " ", dampers[d].model->name(),
         format_number(settings.level, 3), quantity(mean_of(force.half), "N"), unit_name("N"),
         settings.causal ? "from the past alone" : "from the whole recording", of_which);

@@ -114,11 +114,11 @@ std::string uncertainty_text(const std::vector<KnownWithin>& known) {
   std::string text = "\nknown within a standard deviation\n";
   double square = 0;
   for (const KnownWithin& one : known) {
-    text += fmt::format("  {:<46} {:>10} %      force +-{} N\n", one.what,
+    text += fmt::format("  {:<46} {:>10} %      force ±{} N\n", one.what,
                         format_number(100 * one.share, 3), format_number(one.force, 3));
     square += one.force * one.force;
   }
-  return text + fmt::format("  {:<46} {:>10}        force +-{} N\n", "together", "",
+  return text + fmt::format("  {:<46} {:>10}        force ±{} N\n", "together", "",
                             format_number(std::sqrt(square), 3));
 }
 

@@ -54,7 +54,7 @@ std::vector<TextColumn> day_columns(const Watched& watched) {
   std::vector<TextColumn> columns = {{"day", false, 0, true}};
   for (const WatchedQuantity& q : watched.quantities) {
     columns.push_back({q.name + ", " + amount_unit(q), true});
-    columns.push_back({"+-", true, 2, false, "95 %, of the day by itself"});
+    columns.push_back({"±", true, 2, false, "95 %, of the day by itself"});
     columns.push_back({"sum", true, 1, false, "of the chart; an alarm above its threshold"});
   }
   for (const PlantUnknown& unknown : watched.plant.setup.unknown)
@@ -127,8 +127,8 @@ DocumentTable chart_table(const Watched& watched) {
 DocumentTable outlook_table(const Watched& watched) {
   DocumentTable table{.title = "What a day can tell",
                       .columns = {{"quantity"},
-                                  {"+-, of a day", true},
-                                  {"+-, the others known", true},
+                                  {"±, of a day", true},
+                                  {"±, the others known", true},
                                   {"most like"}},
                       .rows = {}};
   for (std::size_t a = 0; a < watched.plant.outlook.size(); ++a) {
@@ -220,10 +220,10 @@ DocumentFigure chart_figure(const Watched& watched) {
   return figure;
 }
 
-/// "the damper's whole force has fallen by 12 +- 3 % since ..."
+/// "the damper's whole force has fallen by 12 ± 3 % since ..."
 std::string alarm_text(const Watched& watched, const WatchedQuantity& q) {
-  return fmt::format("{} has fallen by {} +- {} {} since {} (95 %); the alarm came at {}",
-                     q.meaning, amount_text(q, q.chart.fall),
+  return fmt::format("{} has fallen by {} ± {} {} since {} (95 %); the alarm came at {}", q.meaning,
+                     amount_text(q, q.chart.fall),
                      amount_text(q, kNormal95 * q.chart.fall_deviation, 2), amount_unit(q),
                      watched.days[q.chart.since].estimate.name,
                      watched.days[*q.chart.alarm].estimate.name);

@@ -52,7 +52,7 @@ TEST_CASE("physics: a fluid and a steel of one's own, and overrides that no curr
   CHECK(own.exit_code == 0);
   CHECK(contains(own.output, "with mine"));
   CHECK(contains(own.output, "flux density of 1010"));
-  CHECK(contains(own.output, "force +-"));
+  CHECK(contains(own.output, "force ±"));
   CHECK(run_dashpot("physics passenger_car --steel soft_knee").output ==
         run_dashpot("physics passenger_car").output);
   const ProgramResult fixed = run_dashpot("physics passenger_car --set yield_stress=20kPa");

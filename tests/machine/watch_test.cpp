@@ -382,7 +382,7 @@ TEST_CASE("watch: a day on which an input seems to count otherwise is told, fade
   REQUIRE(told(-0.2, 1.25).size() == 1);
   CHECK(contains(told(-0.2, 1.25).front(),
                  "day 8: its sensors fit the plant better if push is some 1.2 times what the "
-                 "recording shows (on the reference days 1.01 +- 0.0"));
+                 "recording shows (on the reference days 1.01 ± 0.0"));
   CHECK(told(0.03, 0.8).size() == 1);
 }
 

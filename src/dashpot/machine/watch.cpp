@@ -81,10 +81,10 @@ std::string amount_words(double value, const WatchedQuantity& q) {
                        : format_number(value, 2) + " " + q.unit;
 }
 
-/// "front_force +-18 %, +-2 % if rear_force were known"
+/// "front_force ±18 %, ±2 % if rear_force were known"
 std::string outlook_words(const std::vector<WatchedQuantity>& quantities, const WearOutlook& one,
                           const WatchedQuantity& q) {
-  return q.name + " +-" + amount_words(kNormal95 * one.deviation, q) + ", +-" +
+  return q.name + " ±" + amount_words(kNormal95 * one.deviation, q) + ", ±" +
          amount_words(kNormal95 * one.alone, q) + " if " + quantities[one.like].name +
          " were known";
 }
@@ -149,7 +149,7 @@ std::vector<std::string> odd_inputs(const Chart& chart, const std::vector<Watche
       sentences.push_back(day.name + ": its sensors fit the plant better if " + channel +
                           " is some " + format_number(gain, 2) +
                           " times what the recording shows (on the reference days " +
-                          format_number(mean, 3) + " +- " + format_number(scatter, 2) +
+                          format_number(mean, 3) + " ± " + format_number(scatter, 2) +
                           "): look at that input, or at the sensors, before the damper");
     }
   }
@@ -317,7 +317,7 @@ std::vector<std::string> odd_days(const std::vector<WatchedQuantity>& quantities
         sentences.push_back(
             days[d].estimate.name + " lies far above what was to be expected: " + q.name + " is " +
             amount_words(days[d].estimate.wear[q.place], q) + ", by the days before " +
-            amount_words(point.expected, q) + " +- " + amount_words(point.scatter, q) +
+            amount_words(point.expected, q) + " ± " + amount_words(point.scatter, q) +
             "; that is seldom the damper: look at the sensors and at what is known "
             "of the day, since a fade would hide behind it");
     }
@@ -344,7 +344,7 @@ std::vector<std::string> odd_days(const std::vector<WatchedQuantity>& quantities
       if (std::abs(normal_score(others - 1, t)) < kOdd) continue;
       sentences.push_back(days[odd].estimate.name + " lies far from the other reference days: " +
                           q.name + " is " + amount_words(value, q) + ", theirs " +
-                          amount_words(mean, q) + " +- " + amount_words(scatter, q) +
+                          amount_words(mean, q) + " ± " + amount_words(scatter, q) +
                           "; unless something known explains it, the chart takes that for the "
                           "scatter of healthy days, and may be blind to a fade: if it is no "
                           "healthy day, start anew without it");

@@ -26,7 +26,7 @@ std::string share_text(double share) {
 
 std::string error_text(const Trial& trial) {
   const std::string error = percent_text(trial.left_out.esr);
-  return std::isfinite(trial.standard_error) ? error + " +- " + percent_text(trial.standard_error)
+  return std::isfinite(trial.standard_error) ? error + " ± " + percent_text(trial.standard_error)
                                              : error;
 }
 
@@ -221,6 +221,7 @@ DocumentTable trial_table(const std::vector<Trial>& trials, const SearchReport& 
                            .hint = "smallest: the smallest network within one standard error of "
                                    "the best; front: none better with as few parameters"});
 
+  // A row per trial; of one that failed its settings and why.
   for (std::size_t k = 0; k < std::min(most, trials.size()); ++k) {
     const Trial& trial = trials[k];
     std::vector<DocumentCell> row{{std::to_string(k + 1)}};

@@ -121,7 +121,7 @@ std::string Distribution::description(const std::string& unit) const {
   const std::string range = format_plain(from) + " ... " + with_unit(to, unit);
   if (kind == Kind::Uniform) return "uniform, " + range;
   if (kind == Kind::Normal)
-    return "normal, " + format_plain(centre) + " +- " + with_unit(spread, unit) + ", within " +
+    return "normal, " + format_plain(centre) + " ± " + with_unit(spread, unit) + ", within " +
            range;
   if (kind == Kind::LogNormal)
     return "log-normal, median " + with_unit(centre, unit) + ", factor " +

@@ -20,7 +20,7 @@ struct Distribution {
 
   /// The value below which a draw lies with probability u, 0 < u < 1.
   double at(double u) const;
-  /// "normal, 400 +- 40 kg, within 300 ... 500 kg"
+  /// "normal, 400 ± 40 kg, within 300 ... 500 kg"
   std::string description(const std::string& unit) const;
 };
 
