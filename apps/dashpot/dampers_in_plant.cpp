@@ -44,6 +44,16 @@ std::vector<std::string> of_each_damper(const std::string& text, const InPlantSe
   return values;
 }
 
+Option model_of_each_option(std::string& target) {
+  return {.names = "MODEL",
+          .target = &target,
+          .help =
+              "a model file that 'dashpot identify' wrote; of several dampers one for all, or "
+              "one each by the names of their struts: front=a.json,rear=b.json",
+          .takes = Takes::File,
+          .required = true};
+}
+
 std::vector<std::string> model_files(const std::string& model, const InPlantSetup& setup) {
   if (model.find('=') == std::string::npos && setup.kinds.size() > 1)
     throw UsageError(

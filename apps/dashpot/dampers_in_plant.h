@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "command.h"
 #include "dashpot/machine/observe.h"
 
 namespace dashpot::cli {
@@ -13,6 +14,9 @@ class Console;
 /// this option where a damper has none or two, or is not there.
 std::vector<std::string> of_each_damper(const std::string& text, const InPlantSetup& setup,
                                         const std::string& option, const std::string& value);
+
+/// MODEL: a model file for all dampers of a plant, or one each.
+Option model_of_each_option(std::string& target);
 
 /// A model file per damper: MODEL is one for all of them, where they are alike, or one of each.
 std::vector<std::string> model_files(const std::string& model, const InPlantSetup& setup);

@@ -120,6 +120,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
                  " of " + counted(dataset.records.size(), "record") +
                  " here, too (not so with --keep-inertia)");
 
+  // Its errors, and where it extrapolates.
   const EvaluateOptions options{.offset = offset_mode(settings.force_offset, "--force-offset"),
                                 .known_offsets = {},
                                 .band = file.interval,
@@ -127,7 +128,6 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   const Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit, options);
   console.check_stop();
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
-
   Value data = evaluation_json(file, evaluation, outside, changed);
   data.add("records_seen", seen_records(file.provenance, dataset));
   Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
@@ -146,6 +146,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     warnings.push_back(what + ": it extrapolates there");
   model.fit.warnings = warnings;
 
+  // The result on the terminal, as a page, and the traces of each record.
   Document document = evaluation_document(report_input(dataset, ranking, settings.units, console));
   document.data = std::move(data);
   const bool is_infinite = evaluation.diverged == 0 && !std::isfinite(evaluation.pooled.rmse);

@@ -46,6 +46,14 @@ std::string group_word(const Command& command) {
   return word;
 }
 
+/// "--starts N", "-q, --quiet", "DATA...".
+std::string option_label(const Option& option) {
+  if (option.is_positional()) return option.names + (option.is_list() ? "..." : "");
+  std::string label = join(split(option.names, ','), ", ");
+  if (!option.value.empty()) label += ' ' + option.value;
+  return label;
+}
+
 std::string usage(const Command& command) {
   std::string line = "dashpot " + command.name;
   for (const Option& option : command.options)
@@ -203,7 +211,8 @@ std::string brief_help(const Command& command, const std::vector<Option>& common
 std::string markdown_options(const std::vector<Option>& options) {
   std::string text = "| option | meaning |\n|---|---|\n";
   for (const Option& option : options)
-    text += "| `" + option_label(option) + "` | " + markdown_cell(option_text(option)) + " |\n";
+    text += "| `" + option_label(option) + "` | " + markdown_cell(help_text(option, Depth::Whole)) +
+            " |\n";
   return text;
 }
 
@@ -215,15 +224,6 @@ std::string markdown_command(const Command& command, const std::string& mark) {
 }
 
 }  // namespace
-
-std::string option_label(const Option& option) {
-  if (option.is_positional()) return option.names + (option.is_list() ? "..." : "");
-  std::string label = join(split(option.names, ','), ", ");
-  if (!option.value.empty()) label += ' ' + option.value;
-  return label;
-}
-
-std::string option_text(const Option& option) { return help_text(option, Depth::Whole); }
 
 std::string overview(const std::vector<Command>& commands, const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());

@@ -23,9 +23,4 @@ std::string help_on(const std::string& word, const Command& command,
 /// All of it as a page of the documentation.
 std::string help_markdown(const std::vector<Command>& commands, const std::vector<Option>& common);
 
-/// "--starts N", "-q, --quiet", "DATA...".
-std::string option_label(const Option& option);
-/// The help text with its details, choices and default.
-std::string option_text(const Option& option);
-
 }  // namespace dashpot::cli

@@ -254,6 +254,8 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
     if (!left_out.empty()) section.remarks.push_back(left_out);
     document.sections.push_back(std::move(section));
   }
+
+  // The plant as it was stated; and all of it for programs.
   document.sections.push_back(stated_plant_section(setup));
   Value list = Value::array();
   for (const InPlantFit& fit : fits) list.push_back(to_json(fit.report, fit.model));

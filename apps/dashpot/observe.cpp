@@ -448,12 +448,7 @@ Command observe_command() {
           "'identify --in' that made its file or the model found it, is found from the recordings.",
       .options =
           {// The damper, the recordings, and the plant.
-           {.names = "MODEL",
-            .target = &s.model,
-            .help = "a model file that 'dashpot identify' wrote; of several dampers one for all, "
-                    "or one each by the names of their struts: front=a.json,rear=b.json",
-            .takes = Takes::File,
-            .required = true},
+           model_of_each_option(s.model),
            {.names = "RECORDING",
             .target = &s.recordings,
             .help = "recordings of the plant, one table each, or folders of them",

@@ -265,12 +265,7 @@ Command watch_command() {
           "often healthy days raise any is stated, not hoped for. docs/watch.md has the rules.",
       .options =
           {// The damper, the days, and the plant.
-           {.names = "MODEL",
-            .target = &s.model,
-            .help = "a model file that 'dashpot identify' wrote; of several dampers one for all, "
-                    "or one each by the names of their struts: front=a.json,rear=b.json",
-            .takes = Takes::File,
-            .required = true},
+           model_of_each_option(s.model),
            {.names = "RECORDING",
             .target = &s.recordings,
             .help = "a recording per day, in their order, or folders of them; those that the state "

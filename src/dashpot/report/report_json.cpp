@@ -99,6 +99,34 @@ Value information_json(const RankedModel& model,
                         {"bic", criteria->bic}});
 }
 
+/// Tests of the residuals with their statistics, limits and verdicts, record by record.
+Value residual_tests_json(const std::vector<ResidualTest>& tests) {
+  Value list = Value::array();
+  for (const ResidualTest& test : tests) {
+    if (!test.is_tested()) continue;
+    Value inputs = Value::array();
+    for (const InputCorrelation& with : test.inputs)
+      inputs.push_back(Value::object({{"input", with.input},
+                                      {"largest", with.largest},
+                                      {"delay", with.delay},
+                                      {"t", with.statistic},
+                                      {"limit", with.limit},
+                                      {"independent", with.is_independent()}}));
+
+    list.push_back(Value::object({{"record", test.record},
+                                  {"samples", test.samples},
+                                  {"lags", test.lags},
+                                  {"ljung_box", test.portmanteau},
+                                  {"limit", test.limit},
+                                  {"white", test.is_white()},
+                                  {"memory", test.memory},
+                                  {"inputs", std::move(inputs)}}));
+  }
+  return Value::object({{"confidence", kResidualConfidence},
+                        {"verdict", residual_verdict(tests)},
+                        {"records", std::move(list)}});
+}
+
 Value model_json(const RankedModel& model, const std::vector<std::string>& folds,
                  const std::vector<ResidualTest>& tests,
                  const std::optional<InformationCriteria>& criteria) {
@@ -188,33 +216,6 @@ Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
   for (const RecordResult& record : evaluation.records) tests.push_back(test_residual(record));
   value.add("residual_tests", residual_tests_json(tests));
   return value;
-}
-
-Value residual_tests_json(const std::vector<ResidualTest>& tests) {
-  Value list = Value::array();
-  for (const ResidualTest& test : tests) {
-    if (!test.is_tested()) continue;
-    Value inputs = Value::array();
-    for (const InputCorrelation& with : test.inputs)
-      inputs.push_back(Value::object({{"input", with.input},
-                                      {"largest", with.largest},
-                                      {"delay", with.delay},
-                                      {"t", with.statistic},
-                                      {"limit", with.limit},
-                                      {"independent", with.is_independent()}}));
-
-    list.push_back(Value::object({{"record", test.record},
-                                  {"samples", test.samples},
-                                  {"lags", test.lags},
-                                  {"ljung_box", test.portmanteau},
-                                  {"limit", test.limit},
-                                  {"white", test.is_white()},
-                                  {"memory", test.memory},
-                                  {"inputs", std::move(inputs)}}));
-  }
-  return Value::object({{"confidence", kResidualConfidence},
-                        {"verdict", residual_verdict(tests)},
-                        {"records", std::move(list)}});
 }
 
 Value fit_json(const FitReport& fit) {

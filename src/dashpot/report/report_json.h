@@ -1,6 +1,5 @@
 #pragma once
 #include "dashpot/identify/judge/extrapolation.h"
-#include "dashpot/identify/judge/residual_test.h"
 #include "dashpot/report/report.h"
 
 namespace dashpot {
@@ -15,14 +14,10 @@ Value evaluation_json(const Evaluation& evaluation);
 Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
                       const std::vector<Extrapolation>& outside, std::size_t without_inertia);
 
-/// Tests of the residuals with their statistics, limits and verdicts, record by record.
-Value residual_tests_json(const std::vector<ResidualTest>& tests);
-
 /// Status, parameters with their intervals, offsets and warnings of a fit.
 Value fit_json(const FitReport& fit);
 
-/// Displayed series of all left-out records, packed, and the statistics of every residual.
+/// Displayed series of all left-out records, packed.
 Value series_json(const Ranking& ranking);
-Value residuals_json(const Ranking& ranking);
 
 }  // namespace dashpot

@@ -44,7 +44,7 @@ struct BatchResult {
 /// Many vehicles side by side in the lanes of the processor, one result each. Lanes take quarter,
 /// half and full cars, and other plants on tyres that are no larger, with any controller, sensors
 /// and ground that does not jump, whose dampers are static networks (of tanh, sigmoid or ReLU
-/// neurons) or of a law that has lanes (lane_laws()), of one kind in all struts and with numbers of
+/// neurons) or of a law that has lanes (kLaneLaws), of one kind in all struts and with numbers of
 /// their own, behind drivers without limited rate and sampling of their own; all others go through
 /// simulate() one by one (reason_against_lanes() says why). A result does not depend on what else
 /// is in the batch; batches of one or two vehicles, which ride on shorter vectors, may differ in

@@ -72,8 +72,6 @@ std::string against_ground(const BatchVehicle& vehicle) {
 
 }  // namespace
 
-std::span<const std::string_view> lane_laws() { return kLaneLaws; }
-
 double sample_time_of(const BatchVehicle& vehicle) {
   return vehicle.setting.controller ? vehicle.limits.sample_time : 1e-3;
 }

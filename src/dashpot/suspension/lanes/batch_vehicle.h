@@ -1,7 +1,5 @@
 #pragma once
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "dashpot/simulate.h"
 
@@ -20,8 +18,5 @@ double sample_time_of(const BatchVehicle& vehicle);
 
 /// Why a vehicle cannot ride in lanes, as a clause: "its road jumps"; empty where it can.
 std::string reason_against_lanes(const BatchVehicle& vehicle);
-
-/// Laws whose equations run in lanes, too, in alphabetical order.
-std::span<const std::string_view> lane_laws();
 
 }  // namespace dashpot
