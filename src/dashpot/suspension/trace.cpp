@@ -132,6 +132,16 @@ void TraceWriter::write(const PlantState& state, std::span<const FootMotion> roa
   ++row_;
 }
 
+double damper_energy(const Record& trace, const Strut& strut, std::size_t first) {
+  const std::vector<double>&force = trace.channel(strut.name + "_force").samples,
+        &velocity = trace.channel(strut.name + "_velocity").samples;
+  double energy = 0;
+  for (std::size_t k = first + 1; k < trace.size(); ++k)
+    energy += 0.5 * (force[k - 1] * velocity[k - 1] + force[k] * velocity[k]) *
+              (trace.time[k] - trace.time[k - 1]);
+  return energy;
+}
+
 std::string foot_of(const Plant& plant) {
   const bool on_tyres = std::ranges::all_of(
       plant.tyres, [](const Tyre& tyre) { return tyre.name.ends_with("tyre"); });

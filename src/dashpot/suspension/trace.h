@@ -38,6 +38,9 @@ class TraceWriter {
 double contact_lost(const Record& trace, const Plant& plant, std::size_t first);
 double stops_met(const Record& trace, const Plant& plant, std::size_t first);
 
+/// J, that the damper of a strut takes from sample `first` on, by the trapezoidal rule.
+double damper_energy(const Record& trace, const Strut& strut, std::size_t first);
+
 /// What stands on the ground, in a word: "tyre", or the plant's own name of it, as a driver's seat.
 std::string foot_of(const Plant& plant);
 

@@ -4,6 +4,7 @@
 
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/simulated_run.h"
+#include "dashpot/suspension/trace.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -67,6 +68,16 @@ TEST_CASE("a steady sine: comfort, tyre load, travel and energy in closed form")
   const double speed = value(run, "travel") / 1000 * 2 * std::numbers::pi * 5;  // rms, of the strut
   CHECK_CLOSE(value(run, "damper_energy"), 2280 * speed * speed * 20, 1e-3, 0);
   CHECK_CLOSE(value(run, "damper_force"), 2280 * speed * std::sqrt(2.0), 1e-3, 0);
+}
+
+TEST_CASE("the energy that a damper takes is by the trapezoidal rule, of the samples that count") {
+  Record trace;
+  trace.time = {0, 1, 2, 4};
+  trace.channels = {{"strut_force", "N", {9, 2, 2, 2}, ""},
+                    {"strut_velocity", "m/s", {9, 1, 2, 3}, ""}};
+  Strut strut;
+  strut.name = "strut";
+  CHECK(damper_energy(trace, strut, 1) == 3 + 10);  // powers 2, 4 and 6 W, 1 s and 2 s apart
 }
 
 TEST_CASE("the start counts where the ground is not alike all along") {

@@ -11,6 +11,7 @@
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
 #include "dashpot/suspension/sweep/request_file.h"
+#include "dashpot/suspension/trace.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -109,6 +110,7 @@ TEST_CASE("a sweep's measures are those of simulate() and of the ride's own func
     CHECK_CLOSE(ride.greatest_travel, greatest, 1e-4, 0);
     CHECK_CLOSE(ride.tyre_load_index,
                 std::sqrt(squares / static_cast<double>(travel.size() - 200)) / rest, 1e-4, 0);
+    CHECK_CLOSE(ride.energy, damper_energy(record, vehicle.set.plant.struts[0], 200), 1e-5, 0);
     CHECK(ride.stops_met == 0);
     CHECK(!ride.has_diverged());
   }

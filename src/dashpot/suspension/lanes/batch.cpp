@@ -12,6 +12,7 @@
 #include "dashpot/suspension/lanes/lane_vehicle.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
+#include "dashpot/suspension/trace.h"
 
 namespace dashpot {
 namespace {
@@ -206,12 +207,6 @@ class LaneBatch {
   LaneRide ride_;
 };
 
-double sum_of_products(std::span<const double> a, std::span<const double> b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
-}
-
 /// The measures of a ride by simulate(), by the same definitions as in lanes.
 BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
                           std::size_t discarded) {
@@ -238,8 +233,7 @@ BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
     m.deflection = std::max(m.deflection, root_mean_square(travel));
     for (const double x : travel)
       m.greatest_deflection = std::max(m.greatest_deflection, std::abs(x));
-    m.energy +=
-        dt * sum_of_products(samples(strut.name + "_force"), samples(strut.name + "_velocity"));
+    m.energy += damper_energy(trace.record, strut, first);
     for (const double i : current)
       m.current += i / static_cast<double>(current.size() * plant.struts.size());
   }

@@ -151,7 +151,7 @@ enum LaneResult : std::size_t {
   kWeighted2,      ///< of its weighted squares
   kWeighted4,      ///< and of their squares
   kContactLost,    ///< of samples in which some tyre has no load
-  kPower,          ///< of all dampers, W
+  kPower,          ///< of all dampers, W; by half of the first and last sample
   kCurrentSum,     ///< of all dampers, A
   kDivergedAt,     ///< the sample; 0: not
   kMissed,         ///< 1 where some step missed the tolerance

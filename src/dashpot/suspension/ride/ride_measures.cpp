@@ -108,11 +108,10 @@ class Reading {
     // The worst of all struts; their energies together.
     double rms = 0, travel = 0, force = 0, energy = 0;
     for (const Strut& strut : vehicle_.set.plant.struts) {
-      const Samples f = samples(strut.name + "_force"), v = samples(strut.name + "_velocity");
       rms = std::max(rms, root_mean_square(samples(strut.name + "_deflection")));
       travel = std::max(travel, greatest(samples(strut.name + "_deflection")));
-      force = std::max(force, greatest(f));
-      for (std::size_t k = 0; k < f.size(); ++k) energy += f[k] * v[k] * dt_;
+      force = std::max(force, greatest(samples(strut.name + "_force")));
+      energy += damper_energy(trace_.record, strut, first_);
     }
 
     add("travel", "travel of the struts, rms", "mm", 1000 * rms);

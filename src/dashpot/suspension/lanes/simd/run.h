@@ -156,10 +156,15 @@ class LaneRun {
   /// Adds these lanes' sample to the measures and, where wanted, to the trace.
   void record(LaneMask which) {
     const Lane *x = state_.x, *v = x + car_.coordinates();
-    const LaneMask counts = which & (place_ >= static_cast<std::int64_t>(ride_.discarded));
+    const auto first = static_cast<std::int64_t>(ride_.discarded),
+               last = static_cast<std::int64_t>(ride_.samples);
+    const LaneMask counts = which & (place_ >= first);
     tally_.add_body(steps_.acceleration()[0], which, counts);
+
+    // The energy is by the trapezoidal rule: the ends count by half.
+    const Lane share = (place_ == first) | (place_ == last) ? all(0.5) : all(1);
     for (std::size_t s = 0; s < car_.struts(); ++s)
-      tally_.add_strut(s, car_.deflection(x, s), car_.deflection(v, s), steps_.force(s),
+      tally_.add_strut(s, car_.deflection(x, s), share * steps_.force(s) * car_.deflection(v, s),
                        car_.currents(state_, s).coil, counts);
 
     LaneMask lost{};

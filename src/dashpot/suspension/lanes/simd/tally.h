@@ -20,14 +20,13 @@ class Tally {
     put(kWeighted2, weighted * weighted, counts);
     put(kWeighted4, weighted * weighted * weighted * weighted, counts);
   }
-  /// Deflection m and speed m/s of a strut, force N and current A of its damper.
-  void add_strut(std::size_t strut, Lane deflection, Lane speed, Lane force, Lane current,
-                 LaneMask counts) {
+  /// Deflection m of a strut, power W and current A of its damper.
+  void add_strut(std::size_t strut, Lane deflection, Lane power, Lane current, LaneMask counts) {
     Lane(&own)[kLaneStrutResults] = struts_[strut];
     own[kDeflection2] += counts ? deflection * deflection : Lane{};
     Lane& greatest = own[kGreatestDeflection];
     greatest = counts ? fmax(fabs(deflection), greatest) : greatest;
-    put(kPower, force * speed, counts);
+    put(kPower, power, counts);
     put(kCurrentSum, current, counts);
   }
   /// Load N, the same at rest, and deflection m of a tyre.
