@@ -13,7 +13,7 @@ std::string percent_text(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);
   if (size >= 1e6) return fmt::format("{:.1e}", value);
-  if (size > 0 && size < 0.095) return format_number(value, 2);  // 0.0027 is not 0.00
+  if (size >= 5e-4 && size < 0.095) return format_number(value, 2);  // 0.0027 is not 0.00
   return fmt::format("{:.{}f}", value, size < 1 ? 2 : size < 100 ? 1 : 0);
 }
 
