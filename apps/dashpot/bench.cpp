@@ -111,6 +111,10 @@ int run_bench(BenchSettings& settings, Console& console) {
     throw UsageError("--family", "is missing: fluids, builds and their scatter are a family's",
                      "--family drawings/");
 
+  if (is_path(settings.campaign.damper))
+    throw UsageError("--damper", "is a file, and a bench drives published dampers",
+                     "with --in PLANT it drives that of a model file");
+
   if (settings.line.dampers > 0)
     return record_line(settings.line, settings.campaign, settings.folder, console);
 
@@ -130,7 +134,9 @@ int run_bench(BenchSettings& settings, Console& console) {
   // The user reads which damper this was, and with which command to go on.
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
-  if (const std::string note = levels_note(settings.campaign, damper); !note.empty())
+  if (const std::string note =
+          levels_note(settings.campaign, damper.drive_max, damper.model.drive_unit());
+      !note.empty())
     console.note(note);
   console.print(summary(campaign) + "\n\nRecordings  " + settings.folder + "/*.csv\nConditions  " +
                 statement.string() + "\nNext        dashpot identify " +

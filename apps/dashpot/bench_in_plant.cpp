@@ -5,6 +5,7 @@
 #include <set>
 
 #include "console.h"
+#include "damper_choice.h"
 #include "dampers_in_plant.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -102,10 +103,44 @@ std::string road_of(const InPlantSetup& setup, const PlantBenchSettings& setting
   return "";
 }
 
+/// The damper that truly stands in a strut.
+struct TrueDamper {
+  std::string name, about;  ///< what it is and where from; empty: a file, which its reader told
+  std::string doubt;        ///< why its numbers are an example; empty: they are not
+  DriveUnit drive_unit = DriveUnit::None;
+  double drive_min = 0, drive_max = 0;
+  std::vector<double> drive_levels;  ///< those that its driver can give; empty: all
+  std::shared_ptr<const DamperModel> model;
+};
+
+/// A published damper by its name, or that of a model file.
+TrueDamper true_damper(const std::string& name, Console& console) {
+  if (fs::path(name).extension() != ".json") {
+    ParameterSet set = load_parameter_set(name);
+    return {name,
+            set.damper + "; " + set.source,
+            set.verified ? "" : set.reason,
+            set.model.drive_unit(),
+            set.drive_min,
+            set.drive_max,
+            set.drive_levels,
+            std::make_shared<LawModel>(std::move(set.model))};
+  }
+  ModelFile file = load_damper_file({.model = name, .parameters = {}}, "bench", console);
+  return {name,
+          "",
+          "",
+          file.drive_unit,
+          file.domain.current_min,
+          file.domain.current_max,
+          {},
+          std::move(file.model)};
+}
+
 /// The levels of the rides: as asked for, else the damper's own or three over its range; where no
 /// channel shows the drive, the one that the plant states.
 std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings& campaign,
-                              const ParameterSet& damper) {
+                              const TrueDamper& damper) {
   const std::vector<double> stated = stated_levels(campaign);
   if (setup.drive_channels().empty()) {
     if (!stated.empty())
@@ -118,9 +153,8 @@ std::vector<double> levels_of(const InPlantSetup& setup, const CampaignSettings&
   return {damper.drive_min, 0.5 * (damper.drive_min + damper.drive_max), damper.drive_max};
 }
 
-/// The damper of each strut as the set has it, or worn: all by "force", one of several by
-/// "front_force".
-std::vector<std::shared_ptr<const DamperModel>> true_dampers(const std::vector<ParameterSet>& sets,
+/// The damper of each strut as it is, or worn: all by "force", one of several by "front_force".
+std::vector<std::shared_ptr<const DamperModel>> worn_dampers(const std::vector<TrueDamper>& as_new,
                                                              double level,
                                                              const std::vector<std::string>& struts,
                                                              const PlantBenchSettings& settings) {
@@ -150,29 +184,29 @@ std::vector<std::shared_ptr<const DamperModel>> true_dampers(const std::vector<P
 
   std::vector<std::shared_ptr<const DamperModel>> dampers;
   for (std::size_t d = 0; d < struts.size(); ++d) {
-    const auto as_new = std::make_shared<LawModel>(sets[d].model);
+    const auto& model = as_new[d].model;
     if (amounts[d].empty())
-      dampers.push_back(as_new);
+      dampers.push_back(model);
     else
-      dampers.push_back(std::make_shared<WornDamper>(mounted(as_new, level), amounts[d]));
+      dampers.push_back(std::make_shared<WornDamper>(mounted(model, level), amounts[d]));
   }
   return dampers;
 }
 
-/// The parameters of the damper in each strut.
-std::vector<ParameterSet> parameters_of(const CampaignSettings& campaign,
-                                        const InPlantSetup& setup) {
-  std::vector<ParameterSet> sets;
+/// The damper in each strut.
+std::vector<TrueDamper> true_dampers(const CampaignSettings& campaign, const InPlantSetup& setup,
+                                     Console& console) {
+  std::vector<TrueDamper> dampers;
   for (const std::string& name : of_each_damper(campaign.damper, setup, "--damper", "NAME")) {
-    sets.push_back(load_parameter_set(name));
-    const DriveUnit unit = sets.back().model.drive_unit();
+    dampers.push_back(true_damper(name, console));
+    const DriveUnit unit = dampers.back().drive_unit;
     if (setup.drive_unit != DriveUnit::None && setup.drive_unit != unit)
       throw Error(
           name,
           "takes " + to_string(unit) + ", and the plant states " + to_string(setup.drive_unit),
           "'voltage' or 'current' of the plant as the damper has it");
   }
-  return sets;
+  return dampers;
 }
 
 /// Rides of an earlier campaign would be taken for some of this one.
@@ -266,8 +300,8 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   const InPlantSetup asked = read_in_plant_setup(settings.plant);
   const InPlantSetup setup =
       with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));
-  const std::vector<ParameterSet> sets = parameters_of(campaign, setup);
-  const ParameterSet& damper = sets.front();
+  const std::vector<TrueDamper> as_new = true_dampers(campaign, setup, console);
+  const TrueDamper& damper = as_new.front();
 
   const std::string road = road_of(setup, settings);
   if (!road.empty() && settings.push != PlantBenchSettings{}.push)
@@ -284,7 +318,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
       .seed = campaign.bench.seed,
       .monitor = console.monitor()};
   const auto dampers =
-      true_dampers(sets, options.levels.front(), observer_names(setup).struts, settings);
+      worn_dampers(as_new, options.levels.front(), observer_names(setup).struts, settings);
   std::vector<const DamperModel*> models;
   for (const auto& one : dampers) models.push_back(one.get());
   const std::vector<VirtualRide> rides = virtual_campaign(setup, models, options);
@@ -304,12 +338,14 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
 
   // What was recorded, and the command that goes on from it.
   std::set<std::string> told;
-  for (const ParameterSet& one : sets) {
+  for (const TrueDamper& one : as_new) {
     if (!told.insert(one.name).second) continue;
-    console.talk(one.damper + "; " + one.source + '\n');
-    if (!one.verified) console.note("these parameters are an example: " + one.reason);
+    if (!one.about.empty()) console.talk(one.about + '\n');
+    if (!one.doubt.empty()) console.note("these parameters are an example: " + one.doubt);
   }
-  if (const std::string note = levels_note(campaign, damper); !note.empty()) console.note(note);
+  if (const std::string note = levels_note(campaign, damper.drive_max, damper.drive_unit);
+      !note.empty())
+    console.note(note);
   std::string levels;
   for (const double level : options.levels)
     levels += (levels.empty() ? "" : ", ") + format_number(level);
@@ -317,18 +353,18 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
                              : options.hold > 0
                                  ? ", each channel switched by itself"
                                  : ", each channel one level ahead of the one before it";
-  console.print(counted(rides.size(), "ride") + " of the " +
-                (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
-                format_number(options.duration) + " s each, at " + levels + ' ' +
-                to_string(damper.model.drive_unit()) + drives +
-                (options.road.empty() ? "" : ", on " + options.road) + "\n\nRecordings  " + folder +
-                "/ride_*.csv\nTruth       " + folder + "/truth/, of the same names\nPlant       " +
-                plant.string() + ", as it truly is\n" +
-                (asked.unknown.empty() ? ""
-                                       : "Unknown     truly " + true_words(asked, setup) +
-                                             " (--true states others)\n") +
-                "Next        dashpot identify " + shell_quoted(folder) + " --in " +
-                shell_quoted(settings.plant) + '\n');
+  console.print(
+      counted(rides.size(), "ride") + " of the " +
+      (setup.matrices ? "plant" : std::string(setup.model->name)) + ", " +
+      format_number(options.duration) + " s each, at " + levels + ' ' +
+      to_string(damper.drive_unit) + drives + (options.road.empty() ? "" : ", on " + options.road) +
+      "\n\nRecordings  " + folder + "/ride_*.csv\nTruth       " + folder +
+      "/truth/, of the same names\nPlant       " + plant.string() + ", as it truly is\n" +
+      (asked.unknown.empty()
+           ? ""
+           : "Unknown     truly " + true_words(asked, setup) + " (--true states others)\n") +
+      "Next        dashpot identify " + shell_quoted(folder) + " --in " +
+      shell_quoted(settings.plant) + '\n');
   if (console.json)
     console.print_json(
         Value::object({{"folder", folder}, {"rides", std::move(list)}, {"plant", plant.string()}}));

@@ -138,10 +138,10 @@ std::vector<BenchTest> campaign_motions(const CampaignSettings& settings, BenchO
   return bench_sines(options);
 }
 
-std::string levels_note(const CampaignSettings& settings, const ParameterSet& damper) {
+std::string levels_note(const CampaignSettings& settings, double drive_max, DriveUnit unit) {
   const std::vector<double> levels = stated_levels(settings);
   if (levels.empty()) return {};
-  return beyond_known_text(std::ranges::max(levels), damper.drive_max, damper.model.drive_unit());
+  return beyond_known_text(std::ranges::max(levels), drive_max, unit);
 }
 
 std::vector<double> stated_levels(const CampaignSettings& settings) {
@@ -204,8 +204,9 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .choices = parameter_set_names(),
        .takes_parts = true,
        .noun = "damper",
-       .details = "; with --in one for all dampers of the plant, or one of each strut or kind of "
-                  "damper: front=NAME,rear=NAME"},
+       .takes = Takes::File,
+       .details = "; with --in also a model file, and one for all dampers of the plant, or one of "
+                  "each strut or kind of damper: front=NAME,rear=NAME"},
       {.names = "--motions",
        .target = &settings.motions,
        .help = "sines, amplitude in mm x frequency in Hz",

@@ -43,7 +43,7 @@ double parse_level(const std::string& text);
 /// The levels asked for; none: none.
 std::vector<double> stated_levels(const CampaignSettings& settings);
 /// What to say where they go beyond what the damper is known for; else empty.
-std::string levels_note(const CampaignSettings& settings, const ParameterSet& damper);
+std::string levels_note(const CampaignSettings& settings, double drive_max, DriveUnit unit);
 /// The name and the text of a record's CSV file, as a real bench would leave it; without stated
 /// units N, mm and m/s.
 std::string recording_file(const Record& record);

@@ -19,9 +19,11 @@ TEST_CASE("evaluate --in: damper and plant in free run on rides that no fit has 
                               .string(),
                     model = in_folder("spencer.json"), rides = in_folder("rides");
   save_model(to_model_file(load_parameter_set("spencer1997")), model);
-  REQUIRE(run_dashpot("bench --in " + rig + " --damper spencer1997 --levels 0,1 --duration 3 " +
+  REQUIRE(run_dashpot("bench --in " + rig + " --damper " + model + " --levels 0,1 --duration 3 " +
                       "--push 800 --output " + rides)
               .exit_code == 0);
+  CHECK(contains(run_dashpot("bench --damper " + model).output,
+                 "--damper: is a file, and a bench drives published dampers"));
 
   // The figures, the page, and the force that no sensor showed.
   const std::string with = "evaluate " + model + ' ' + rides + " --in " + rig;
