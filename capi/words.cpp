@@ -223,6 +223,7 @@ InPlantWords read_in_plant_options(const char* text) {
   reader.finish();
   if (words.models.size() != 1)
     throw Error("options, models", "are " + std::to_string(words.models.size()) + " laws", "one");
+  words.models.front() = model_named(words.models.front());
   return out;
 }
 

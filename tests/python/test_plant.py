@@ -1,6 +1,7 @@
 import json
 import unittest
 import warnings
+from pathlib import Path
 
 import numpy as np
 from support import InFolder, program
@@ -61,6 +62,11 @@ class InsideAPlant(InFolder):
         self.assertIn("damper_force [N]", run.rides[0]["columns"])
         with self.assertRaises(KeyError):
             run.error("a sensor that is not there")
+
+    def test_law_of_a_file(self):
+        law = Path(__file__).parents[2] / "examples" / "laws" / "my_tanh.yaml"
+        fit = dashpot.identify_in_plant(self.ride, self.plant, str(law), starts=2)
+        self.assertEqual(fit.model.name, "my_tanh")
 
     def test_driven_as_found(self):
         car = {"unsprung_mass": "40 kg", "spring_stiffness": 2e4, "sprung_mass": 350, "tyre_stiffness": 2e5}

@@ -105,7 +105,7 @@ def identify_in_plant(
 
     rides: a path, a dict of arrays or a DataFrame whose names hold channel and unit ("az_body [m/s^2]"; without a
     unit SI), or several of these. plant: a file, words, or a dict of what such a file holds (docs/in-plant.md).
-    model: a law, or one of another kind, which learns along tanh_kwok there. sample_time: s, where no column is time.
+    model: a law, or the file of one, or one of another kind, which learns along tanh_kwok there. sample_time: s, where no column is time.
     form, fix, free, bounds: as the command line has them.
     grade: of the sensors that are tried beside those that are there. profile: numbers whose misfit is followed.
 
