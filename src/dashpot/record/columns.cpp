@@ -69,6 +69,21 @@ void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStateme
   use.keeps_noise = statement.keeps_noise;
 }
 
+/// A column whose name says that it counts something else than the channel that it is stated to be:
+/// volts for amperes.
+void refuse_other_quantity(const RawColumn& column, const NamedChannel& named,
+                           const ChannelStatement& statement) {
+  const auto own = parse_unit(named.unit),
+             right = parse_unit(std::string(si_unit(statement.channel)));
+  if (named.unit.empty() || !own || !right || own->dimension == right->dimension) return;
+  throw Error(statement.where,
+              "column '" + column.name + "' counts " + named.unit + " by its name, and " +
+                  statement.channel + " is in " + std::string(si_unit(statement.channel)),
+              "'" + named.channel + ": {column: " + yaml_string(column.name) +
+                  "}', or state its unit: '" + statement.channel +
+                  ": {column: " + yaml_string(column.name) + ", unit: UNIT}'");
+}
+
 ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
                      const std::string& stated_in) {
   ColumnUse use;
@@ -89,6 +104,7 @@ ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
       throw Error(statement.where, "column '" + column.name + "' has " + named.problem,
                   "state its unit: '" + use.channel + ": {column: " + yaml_string(column.name) +
                       ", unit: UNIT}'");
+    if (unit.empty()) refuse_other_quantity(column, named, statement);
     use.basis += unit.empty() ? ", assumed SI: no unit given" : ", unit from the file";
   }
   set_unit(use, unit, statement);
