@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/damper/kinds/family/family_member.h"
 #include "dashpot/report/characterisation_document.h"
 #include "data.h"
 #include "document_text.h"
@@ -29,6 +31,22 @@ constexpr std::string_view kCharacteriseExample =
     "dashpot characterise recordings/ --speeds 52,131,262,524 --csv cycles.csv \\\n"
     "    --report sheet.html";
 
+/// How many dampers the records are of, by the numbers that they state, as those of a family do.
+std::size_t stated_dampers(const Dataset& dataset) {
+  std::set<std::vector<double>> dampers;
+  for (const Record& record : dataset.records) {
+    std::vector<double> numbers;
+    for (const MemberField& field : member_fields()) {
+      const double* stated = find_condition(record.conditions, field.name);
+      numbers.push_back(stated ? *stated : 0);
+    }
+    const double* specimen = find_condition(record.conditions, kSpecimen);
+    numbers.push_back(specimen ? *specimen : 0);
+    dampers.insert(std::move(numbers));
+  }
+  return dampers.size();
+}
+
 int run_characterise(const CharacteriseSettings& settings, Console& console) {
   require_page(settings.report);
   require_output(settings.csv);
@@ -37,6 +55,9 @@ int run_characterise(const CharacteriseSettings& settings, Console& console) {
   const Dataset dataset = load_recordings(settings.data, console);
   const Characterisation figures = characterise(dataset, options);
   console.check_stop();
+  if (const std::size_t dampers = stated_dampers(dataset); dampers > 1)
+    console.warn("the recordings are of " + std::to_string(dampers) +
+                 " dampers by their drawings, and the sheet takes them for one: name those of one");
   Document document = characterisation_document(
       {dataset, figures, console.command_line(), DASHPOT_VERSION, date_now()});
   document.units = units;

@@ -69,6 +69,22 @@ TEST_CASE("characterise --json is in SI and has every level; --speeds asks for o
   CHECK(!contains(stated.output, "5000 "));
 }
 
+TEST_CASE("characterise warns where the recordings are of several dampers") {
+  const TemporaryFolder folder;
+  folder.write("a.csv", multi_speed_csv());
+  folder.write("b.csv", multi_speed_csv());
+  const std::string several = "are of 2 dampers by their drawings";
+  const auto told_of = [&](const std::string& gap) {
+    folder.write("dataset.yaml",
+                 "drive: none\nfiles:\n  - {match: a.csv, conditions: {gap: 1 mm}}\n"
+                 "  - {match: b.csv, conditions: {gap: " +
+                     gap + "}}\n");
+    return run_dashpot("characterise " + folder.path().string()).output;
+  };
+  CHECK(contains(told_of("2 mm"), several));
+  CHECK_FALSE(contains(told_of("1 mm"), several));
+}
+
 TEST_CASE("characterise refuses speeds that are none, and says where there is no cycle") {
   const TemporaryFolder folder;
   const std::string file = folder.write("run_0.5A.csv", multi_speed_csv()).string();
