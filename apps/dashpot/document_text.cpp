@@ -10,6 +10,15 @@ void print_document(const Document& document, Console& console) {
                               [&](std::string_view text) { return console.bold(text); }));
 }
 
+void add_doubts(std::vector<std::string> doubts, Document& document) {
+  if (doubts.empty()) return;
+  document.sections.push_back({.name = "doubts",
+                               .title = "In doubt",
+                               .paragraphs = {},
+                               .remarks = std::move(doubts),
+                               .audience = Audience::Files});
+}
+
 namespace {
 
 bool is_pdf(const std::string& path) { return path.ends_with(".pdf"); }

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "console.h"
 #include "dashpot/report/document.h"
@@ -9,6 +10,9 @@ namespace dashpot::cli {
 
 /// The verdict of a document and its tables, on the terminal; figures are left to the page.
 void print_document(const Document& document, Console& console);
+
+/// What speaks against a result, before all else in its files; the terminal has it as warnings.
+void add_doubts(std::vector<std::string> doubts, Document& document);
 
 /// Throws Error where a file cannot be written to `path`, before long work. Empty: none is asked
 /// for.

@@ -104,13 +104,7 @@ Document evaluation_document(const PlantEvaluation& told, const InPlantSetup& se
           : "The plant diverges: nothing below can be used. Are model and plant those of these "
             "recordings, in the same units?";
 
-  // What speaks against it stands first in the files; the terminal has it as warnings.
-  if (!told.warnings.empty())
-    document.sections.push_back({.name = "doubts",
-                                 .title = "In doubt",
-                                 .paragraphs = {},
-                                 .remarks = told.warnings,
-                                 .audience = Audience::Files});
+  add_doubts(told.warnings, document);
   DocumentSection section{.name = "evaluation", .title = "Judged", .paragraphs = {}};
   section.tables = {sensor_table(told, setup.sensors.size())};
   section.figures = {sensor_figure(told.traces.front(), told.sensors)};

@@ -8,6 +8,7 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
+#include "document_text.h"
 #include "plant_advice_section.h"
 #include "sensor_figure.h"
 #include "stated_plant_section.h"
@@ -213,13 +214,11 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
                     .kind = "identification"};
   document.verdict = verdict_of(best, setup);
 
-  // What speaks against them stands first in the files; the terminal has it as warnings.
-  DocumentSection doubts{
-      .name = "doubts", .title = "In doubt", .paragraphs = {}, .audience = Audience::Files};
+  std::vector<std::string> doubts;
   for (const InPlantFit& fit : doubted)
     for (const std::string& warning : fit.report.warnings)
-      doubts.remarks.push_back(fit.model + ": " + warning);
-  if (!doubts.remarks.empty()) document.sections.push_back(std::move(doubts));
+      doubts.push_back(fit.model + ": " + warning);
+  add_doubts(std::move(doubts), document);
 
   if (fits.size() > 1)
     document.sections.push_back(

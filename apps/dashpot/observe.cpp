@@ -367,8 +367,8 @@ Document observe_document(const ObserveReport& report, const std::vector<PlantRe
 
   if (!report.warnings.empty()) document.verdict += " These bands are in doubt: see the warnings.";
 
+  add_doubts(report.warnings, document);
   DocumentSection section{.name = "observed", .title = "Observed", .paragraphs = {}};
-  section.remarks = report.warnings;
   if (!truth.empty()) section.tables.push_back(truth_table(truth, settings.level));
   section.tables.push_back(quantity_table(report, settings.level));
   section.tables.push_back(observed_sensors(report, settings.level));
