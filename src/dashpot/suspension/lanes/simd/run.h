@@ -162,7 +162,7 @@ class LaneRun {
     tally_.add_body(steps_.acceleration()[0], which, counts);
 
     // The energy is by the trapezoidal rule: the ends count by half.
-    const Lane share = (place_ == first) | (place_ == last) ? all(0.5) : all(1);
+    const Lane share = ((place_ == first) | (place_ == last)) ? all(0.5) : all(1);
     for (std::size_t s = 0; s < car_.struts(); ++s)
       tally_.add_strut(s, car_.deflection(x, s), share * steps_.force(s) * car_.deflection(v, s),
                        car_.currents(state_, s).coil, counts);
