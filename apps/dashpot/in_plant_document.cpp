@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "console.h"
+#include "dashpot/base/date.h"
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "document_text.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/text.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/ride/ride.h"
