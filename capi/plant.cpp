@@ -154,6 +154,16 @@ ObservedDampers placed(const PlacedModels& models, InPlantSetup& setup) {
   return dampers;
 }
 
+/// Recordings of a name for the caller.
+std::unique_ptr<dashpot_recordings> as_recordings(const char* name, const InPlantSetup& setup,
+                                                  std::vector<Record> records) {
+  auto made = std::make_unique<dashpot_recordings>();
+  made->dataset.name = name;
+  made->dataset.drive_unit = setup.drive_unit;
+  made->dataset.records = std::move(records);
+  return made;
+}
+
 void observe_rides(const PlacedModels& models, const dashpot_rides* rides, InPlantSetup setup,
                    ObserveOptions options, const dashpot_monitor* monitor,
                    dashpot_recordings** estimates, char** report) {
@@ -165,11 +175,9 @@ void observe_rides(const PlacedModels& models, const dashpot_rides* rides, InPla
     observed = observe(dampers, setup, recordings, options);
   });
 
-  auto made = std::make_unique<dashpot_recordings>();
-  made->dataset.name = "observed";
-  made->dataset.drive_unit = setup.drive_unit;
-  for (const ObservedRecording& one : observed.recordings)
-    made->dataset.records.push_back(estimates_of(one));
+  std::vector<Record> records;
+  for (const ObservedRecording& one : observed.recordings) records.push_back(estimates_of(one));
+  auto made = as_recordings("observed", setup, std::move(records));
   if (report) *report = copy_text(format_json(presentable(to_json(observed, setup))));
   *estimates = made.release();
 }
@@ -185,11 +193,9 @@ void evaluate_rides(const PlacedModels& models, const dashpot_rides* rides, InPl
     told = evaluate_in_plant(dampers, setup, recordings, options);
   });
 
-  auto made = std::make_unique<dashpot_recordings>();
-  made->dataset.name = "in free run";
-  made->dataset.drive_unit = setup.drive_unit;
-  for (const InPlantTrace& trace : told.traces)
-    made->dataset.records.push_back(run_of(trace, setup));
+  std::vector<Record> records;
+  for (const InPlantTrace& trace : told.traces) records.push_back(run_of(trace, setup));
+  auto made = as_recordings("in free run", setup, std::move(records));
   *report = copy_text(format_json(presentable(to_json(told, setup))));
   if (runs) *runs = made.release();
 }

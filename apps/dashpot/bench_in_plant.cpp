@@ -115,7 +115,7 @@ struct TrueDamper {
 
 /// A published damper by its name, or that of a model file.
 TrueDamper true_damper(const std::string& name, Console& console) {
-  if (fs::path(name).extension() != ".json") {
+  if (!is_path(name)) {
     ParameterSet set = load_parameter_set(name);
     return {name,
             set.damper + "; " + set.source,
@@ -126,6 +126,8 @@ TrueDamper true_damper(const std::string& name, Console& console) {
             set.drive_levels,
             std::make_shared<LawModel>(std::move(set.model))};
   }
+
+  // A file, of which the drive's range is that of its data.
   ModelFile file = load_damper_file({.model = name, .parameters = {}}, "bench", console);
   return {name,
           "",

@@ -28,20 +28,24 @@ namespace {
 
 double share_of(const SensorFigures& figure) { return 100 * figure.training / figure.rms; }
 
-/// A sensor over all recordings: mean squares, of which each sample counts as much.
+/// A sensor over all recordings: of its mean squares each sample counts as much, of its errors each
+/// that was compared.
 SensorFigures pooled(const PlantEvaluation& told, std::size_t sensor, std::size_t sensors) {
   SensorFigures all = told.sensors[sensor];
-  double samples = 0, squares = 0, errors = 0;
+  double samples = 0, compared = 0, squares = 0, errors = 0;
   for (std::size_t r = 0; r < told.traces.size(); ++r) {
     const SensorFigures& own = told.sensors[r * sensors + sensor];
-    const auto count = static_cast<double>(told.traces[r].measured[sensor].size());
+    const InPlantTrace& trace = told.traces[r];
+    const auto count = static_cast<double>(trace.measured[sensor].size()),
+               judged = static_cast<double>(trace.training - trace.first);
     samples += count;
+    compared += judged;
     squares += count * own.rms * own.rms;
-    errors += count * own.training * own.training;
+    errors += judged * own.training * own.training;
   }
   all.recording = "all";
   all.rms = std::sqrt(squares / samples);
-  all.training = std::sqrt(errors / samples);
+  all.training = std::sqrt(errors / compared);
   return all;
 }
 
@@ -55,6 +59,8 @@ DocumentTable sensor_table(const PlantEvaluation& told, std::size_t sensors) {
                                   {"error %", true},
                                   {"offset", true, 1}},
                       .rows = {}};
+
+  // Every recording, then all of them together.
   const auto add = [&](const SensorFigures& s, const std::string& offset) {
     table.rows.push_back({s.recording, s.channel, unit_name(s.unit), quantity(s.rms, s.unit, 4),
                           quantity(s.training, s.unit, 4), format_number(share_of(s), 3), offset});

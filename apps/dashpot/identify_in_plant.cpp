@@ -31,8 +31,7 @@ std::tuple<bool, bool, double> place_of(const InPlantFit& fit) {
           report.road_measured ? worst : report.force_error};
 }
 
-/// Whether even the best of the usual laws leaves more of a sensor than noise and a law of another
-/// structure do.
+/// Whether even the best of the usual laws leaves a fifth of a sensor, where nobody would use it.
 bool lacks_all(const InPlantFit& best) {
   constexpr double kMuch = 20;  // % of the sensor, in free run
   return best.report.road_measured && worst_of(best) > kMuch;
@@ -188,8 +187,9 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
     for (const std::string& warning : one.report.warnings) console.warn(one.model + ": " + warning);
   if (names_none(settings.fit.models) && lacks_all(fits.front()))
     console.warn(
-        "none of the usual laws makes this damper: name others, as modified_bouc_wen+network, or "
-        "the file of a law, as examples/laws/duhem.yaml, a hysteresis without a name");
+        "none of the usual laws comes near these sensors: name other models, or a law of your own "
+        "(docs/laws-from-a-file.md; examples/laws/duhem.yaml is a hysteresis without a name, of a "
+        "damper whose current never changes)");
   const fs::path folder = settings.results.folder, models = folder / "models",
                  plants = folder / "plants";
   for (const InPlantFit& one : fits)

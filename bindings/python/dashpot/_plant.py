@@ -130,8 +130,8 @@ def identify_in_plant(
     return PlantFit(found, json.loads(report))
 
 
-class PlantRun:
-    """A plant in free run beside its recordings: a table per ride, and the report of `dashpot evaluate --in --json`."""
+class _RideTables:
+    """A table per ride, and the report of the command that made them."""
 
     def __init__(self, core: _core._Recordings, report: dict):
         self.report = report
@@ -139,6 +139,16 @@ class PlantRun:
 
     def __len__(self) -> int:
         return len(self.rides)
+
+    def frame(self, ride: int = 0):
+        """A ride as a DataFrame (pandas), its columns named with their units."""
+        import pandas
+
+        return pandas.DataFrame(self.rides[ride]["columns"], copy=False)
+
+
+class PlantRun(_RideTables):
+    """A plant in free run: each sensor and NAME_modelled per ride; the report of `dashpot evaluate --in --json`."""
 
     def error(self, sensor: str, ride: int = 0) -> float:
         """The rms error of a sensor in a ride, SI, after its offset; infinite where the plant diverges."""
@@ -148,12 +158,6 @@ class PlantRun:
             if one["sensor"] == sensor:
                 return float(one["error"])
         raise KeyError(f"{sensor!r}; known: {', '.join(one['sensor'] for one in of_ride)}")
-
-    def frame(self, ride: int = 0):
-        """A ride as a DataFrame (pandas), its columns named with their units: each sensor, and NAME_modelled."""
-        import pandas
-
-        return pandas.DataFrame(self.rides[ride]["columns"], copy=False)
 
 
 def evaluate_in_plant(
@@ -181,15 +185,8 @@ def evaluate_in_plant(
     return PlantRun(core, json.loads(report))
 
 
-class Observation:
+class Observation(_RideTables):
     """What no sensor showed: a table per ride, and the report of `dashpot observe --json`."""
-
-    def __init__(self, core: _core._Recordings, report: dict):
-        self.report = report
-        self.rides: List[dict] = [core.record(place) for place in range(len(core))]
-
-    def __len__(self) -> int:
-        return len(self.rides)
 
     def __getitem__(self, name: str):
         """(value, half width of its band) of the first ride, read-only arrays: observation["damper_force"]."""
@@ -202,12 +199,6 @@ class Observation:
             known = [known for known in columns if known + "_half_band" in columns]
             raise KeyError(f"{name!r}; known: {', '.join(known)}")
         return columns[name], columns[name + "_half_band"]
-
-    def frame(self, ride: int = 0):
-        """A ride as a DataFrame (pandas), its columns named with their units."""
-        import pandas
-
-        return pandas.DataFrame(self.rides[ride]["columns"], copy=False)
 
 
 def observe(
