@@ -351,7 +351,7 @@ DASHPOT_API dashpot_status dashpot_identify_dampers_in_plant(const dashpot_rides
 
 /// What no sensor showed of a plant whose damper is known: `dashpot observe`. Options (null: none):
 /// {"causal": false, "force_error": [[N, s], ...], "velocity_shift": [m/s, s], "level": 0.9,
-/// "steps": 0, "threads": 0}.
+/// "steps": 0, "threads": 0}; an error of the force that stays: [N].
 /// `estimates`: a recording for each ride, with damper_force, the plant's motion and the road, and
 /// of each half the width of its band as "NAME_half_band". In a plant with several dampers this one
 /// stands in each strut, and the forces are "front_damper_force" and so on. A sensor whose noise

@@ -248,13 +248,14 @@ ObserveOptions read_observe_options(const char* text) {
   options.steps = whole_int(reader, "steps", options.steps);
   options.threads = whole_int(reader, "threads", options.threads);
 
-  // Errors of the force: how large, N, and for how long, s.
+  // Errors of the force: how large, N, and for how long, s; without that, one that stays.
   if (const Value* errors = reader.optional("force_error"))
     for (const Value& one : errors->items()) {
       const std::vector<double> numbers = one.as_numbers();
-      if (numbers.size() != 2 || !(numbers[0] > 0) || !(numbers[1] > 0))
-        throw Error("options, force_error", "holds another thing than [N, s]", "[[30, 0.01]]");
-      options.force.push_back({numbers[0], numbers[1]});
+      if (numbers.empty() || numbers.size() > 2 || !(numbers.front() > 0) || !(numbers.back() > 0))
+        throw Error("options, force_error", "holds another thing than [N, s] or [N]",
+                    "[[30, 0.01], [20]]");
+      options.force.push_back({numbers[0], numbers.size() > 1 ? numbers[1] : kStayingError});
     }
 
   // The velocity by which the force goes, likewise: m/s and s.

@@ -197,10 +197,12 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
   // The errors of the forces, as they are read and as the option takes them.
   std::string errors, words;
   for (const ForceError& one : report.noise.force) {
+    const bool stays = one.memory >= kStayingError;
     const std::string memory = format_number(one.memory, 3);
-    errors += (errors.empty() ? "" : " and ") + quantity(one.deviation, "N") + ' ' +
-              unit_name("N") + ", forgotten in " + memory + " s";
-    words += (words.empty() ? "" : ",") + format_number(one.deviation, 3) + "@" + memory;
+    errors += (errors.empty() ? "" : "; ") + quantity(one.deviation, "N") + ' ' + unit_name("N") +
+              (stays ? ", which stay" : ", forgotten in " + memory + " s");
+    words +=
+        (words.empty() ? "" : ",") + format_number(one.deviation, 3) + (stays ? "" : "@" + memory);
   }
   lines.push_back((report.struts.size() > 1 ? "Errors of each damper's force: "
                                             : "Errors of the model's force: ") +

@@ -26,9 +26,9 @@ Option force_error_option(std::vector<std::string>& words) {
           .target = &words,
           .help =
               "errors of the model's force as standard deviation @ time in which it is "
-              "forgotten: 30@0.01,50@1",
+              "forgotten, without a time one that stays: 30@0.01,50@1,20",
           .value = "N@S,...",
-          .default_text = "found from the recordings, a quick and a slow one"};
+          .default_text = "found from the recordings: a quick, a slow and one that stays"};
 }
 
 Option velocity_shift_option(std::string& word) {
@@ -44,8 +44,10 @@ Option velocity_shift_option(std::string& word) {
 std::vector<ForceError> force_errors(const std::vector<std::string>& words) {
   std::vector<ForceError> errors;
   for (const std::string& word : words) {
+    const bool stays = word.find('@') == std::string::npos;
     const auto [deviation, memory] =
-        process_of("--force-error", word, "newtons @ seconds, as 30@0.01");
+        process_of("--force-error", stays ? word + '@' + format_number(kStayingError) : word,
+                   "newtons @ seconds, as 30@0.01; newtons alone where the error stays");
     errors.push_back({deviation, memory});
   }
   return errors;

@@ -1,7 +1,9 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/observe.h"
@@ -13,37 +15,54 @@ struct ExampleObserver {
 };
 
 /// shift: m/s, of the velocity by which the model's force goes.
+inline ExampleObserver example_observer_in(const std::string& plant,
+                                           std::shared_ptr<const dashpot::DamperModel> model,
+                                           const dashpot::Domain& domain, double shift = 0) {
+  using namespace dashpot;
+  const InPlantSetup setup = parse_in_plant_setup(plant, "car.yaml");
+  ObserveOptions options;
+  options.force = {{30, 0.01}, {20, 0.5}, {90, kStayingError}};
+  options.shift = {shift, 0.015};
+  return {make_observer(model, domain, setup, 1e-3, options), observer_names(setup, model->name())};
+}
+
 inline ExampleObserver example_observer_in(const std::string& plant, const std::string& damper,
                                            const std::string& drive = "coil", double shift = 0) {
   using namespace dashpot;
   const ParameterSet set = load_parameter_set(damper);
-  const InPlantSetup setup = parse_in_plant_setup(
-      plant + (set.model.drive_unit() == DriveUnit::Volt ? "voltage" : "current") + ": " + drive +
-          "\n",
-      "car.yaml");
-  ObserveOptions options;
-  options.force = {{30, 0.01}, {20, 0.5}};
-  options.shift = {shift, 0.015};
-  const auto model = std::make_shared<LawModel>(set.model);
-  return {make_observer(model, usual_domain(set.drive_min, set.drive_max), setup, 1e-3, options),
-          observer_names(setup, model->name())};
+  const bool by_voltage = set.model.drive_unit() == DriveUnit::Volt;
+  return example_observer_in(plant + (by_voltage ? "voltage: " : "current: ") + drive + "\n",
+                             std::make_shared<LawModel>(set.model),
+                             usual_domain(set.drive_min, set.drive_max), shift);
 }
 
+inline const std::string kExampleCar =
+    "plant: quarter_car\n"
+    "parameters:\n"
+    "  unsprung_mass: 40 kg\n"
+    "  spring_stiffness: 20 N/mm\n"
+    "  sprung_mass: 350 kg\n"
+    "  tyre_stiffness: 190 N/mm\n"
+    "inputs:\n"
+    "  - {kind: ground, class: C, speed: 20 m/s}\n"
+    "sensors:\n"
+    "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
+    "  - {channel: az_wheel, quantity: acceleration, at: wheel, noise: 0.5}\n"
+    "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n";
+
 inline ExampleObserver example_observer(const std::string& damper, double shift = 0) {
-  return example_observer_in(
-      "plant: quarter_car\n"
-      "parameters:\n"
-      "  unsprung_mass: 40 kg\n"
-      "  spring_stiffness: 20 N/mm\n"
-      "  sprung_mass: 350 kg\n"
-      "  tyre_stiffness: 190 N/mm\n"
-      "inputs:\n"
-      "  - {kind: ground, class: C, speed: 20 m/s}\n"
-      "sensors:\n"
-      "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
-      "  - {channel: az_wheel, quantity: acceleration, at: wheel, noise: 0.5}\n"
-      "  - {channel: level, quantity: deflection, noise: 0.2 mm}\n",
-      damper, "coil", shift);
+  return example_observer_in(kExampleCar, damper, "coil", shift);
+}
+
+/// With a network of more states than a filter estimates.
+inline ExampleObserver example_network_observer() {
+  using namespace dashpot;
+  std::vector<HysteresisNetwork> members;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    members.push_back(example_hysteresis_network(seed));
+  const auto model =
+      std::make_shared<HysteresisNetworkModel>("hysteresis_network", std::move(members));
+  return example_observer_in(kExampleCar + "current: coil\n", model, usual_domain(0, 2));
 }
 
 /// The same of a half car with this damper in both struts, on roads that are measured.

@@ -10,6 +10,7 @@
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/plant_smoother.h"
 #include "dashpot/machine/virtual_campaign.h"
+#include "dashpot/machine/worn_damper.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -264,6 +265,50 @@ TEST_CASE("observe: with the true damper, whose states are in the filter, its me
   CHECK(error < 0.006);
   CHECK(inside > 0.7);
   CHECK(report.warnings.empty());
+}
+
+TEST_CASE("observe: more states than a filter estimates are carried along the damper's motion") {
+  const ObservedRide ride = spencer_ride(kObservedCar, 4);
+  const auto spencer = std::make_shared<LawModel>(load_parameters("spencer1997"));
+  const auto mean =
+      std::make_shared<MeanModel>(std::vector<MeanModel::Member>(8, {spencer, 0.125}));
+  for (const bool causal : {false, true}) {
+    const ObserveOptions options{.causal = causal, .force = {{5, 0.002}, {2, 0.1}}};
+    const auto observed = [&](const std::shared_ptr<const DamperModel>& damper) {
+      return judged(observe(damper, kCarDomain, ride.setup, {ride.recorded}, options), ride.truth);
+    };
+    const auto estimated = observed(spencer), carried = observed(mean);
+    CHECK(carried.first < 1.5 * estimated.first);
+    CHECK(carried.second > 0.85);
+  }
+}
+
+TEST_CASE("observe: a force that is off all along is not taken for the zero of a sensor") {
+  const Wear lopsided{.name = "lopsided",
+                      .unit = "N",
+                      .meaning = "more in rebound, less in compression",
+                      .usual = 1,
+                      .added = [](const DamperInput& input, double) {
+                        return std::abs(std::tanh(input.velocity / 0.02));
+                      }};
+  const ObservedRide ride = spencer_ride(kObservedCar, 6);
+  const auto damper =
+      std::make_shared<WornDamper>(std::make_shared<LawModel>(load_parameters("spencer1997")),
+                                   std::vector<WornDamper::Amount>{{&lopsided, 60}});
+  const auto observed = [&](std::vector<ForceError> force) {
+    return observe(damper, kCarDomain, ride.setup, {ride.recorded}, {.force = std::move(force)});
+  };
+  const ObserveReport with = observed({});
+  REQUIRE(with.noise.force.size() == 3);
+  CHECK(with.noise.force.back().memory == kStayingError);
+  const ObserveReport without = observed({with.noise.force[0], with.noise.force[1]});
+  const auto deflection = [&](const ObserveReport& report) {
+    return judged(report, ride.truth, damper_quantities(0, 1).deflection);
+  };
+  CHECK(judged(with, ride.truth).second > 0.8);
+  CHECK(deflection(with).second > 0.8);
+  CHECK(deflection(without).second < 0.5);
+  CHECK(deflection(with).first < deflection(without).first);
 }
 
 TEST_CASE("observe: where a law bends at another velocity than the damper, bands of motion hold") {
@@ -602,7 +647,7 @@ TEST_CASE("smooth: what one sample says of another instant is what that says of 
   const std::size_t all = observer.tables().all();
   const ObservedRun before = filtered(observer, samples);
   ObservedRun run = before;
-  smooth(observer, run);
+  smooth(observer, samples, run);
 
   // The last estimate knew all samples already; the others know more than they did.
   for (std::size_t k = 0; k < all; ++k)
@@ -618,7 +663,7 @@ TEST_CASE("smooth: what one sample says of another instant is what that says of 
     ObservedSamples other = samples;
     other.measured[which] += kStep;
     ObservedRun its = filtered(observer, other);
-    smooth(observer, its);
+    smooth(observer, other, its);
     return (its.estimates[at * all] - run.estimates[at * all]) / kStep;
   };
   for (const std::size_t at : {0u, 10u})
@@ -651,10 +696,10 @@ TEST_CASE("observe: what cannot be is said with what would be right") {
                "the cut-off of its filter is unknown; its value: 'dashpot identify --in' writes"));
   const auto spencer = std::make_shared<LawModel>(load_parameters("spencer1997"));
   const auto mean =
-      std::make_shared<MeanModel>(std::vector<MeanModel::Member>(8, {spencer, 0.125}));
+      std::make_shared<MeanModel>(std::vector<MeanModel::Member>(200, {spencer, 0.005}));
   CHECK(contains(
       message_of([&] { observe(mean, kCarDomain, ride.setup, {ride.recorded}, options); }),
-      "mean: has 24 states, and a filter follows 12; a law of the same damper, as tanh_kwok"));
+      "mean: has 600 states, and a filter carries 512; a law of the same damper, as tanh_kwok"));
   InPlantSetup late = ride.setup;
   late.sensors.back().finds_delay = true;
   CHECK(contains(message_of([&] { observe(damper, kCarDomain, late, {ride.recorded}, options); }),

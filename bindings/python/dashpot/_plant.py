@@ -208,7 +208,7 @@ def observe(
     *,
     sample_time: float = 0,
     causal: bool = False,
-    force_error: Optional[Iterable[Tuple[float, float]]] = None,
+    force_error: Optional[Iterable[Tuple[float, ...]]] = None,
     velocity_shift: Optional[Tuple[float, float]] = None,
     level: float = 0.9,
     steps: int = 0,
@@ -222,7 +222,7 @@ def observe(
     rides, plant, sample_time: as of identify_in_plant(); of the plant all numbers must be known (PlantFit.plant).
     A sensor whose noise the plant does not state has that which the identification of plant or model found.
     causal: each instant from its past alone. force_error: errors of the model's force as (N, s in which it is
-    forgotten); None: found. velocity_shift: of the velocity by which the model's force goes, (m/s, s in which it is
+    forgotten), or (N,) of one that stays; None: found. velocity_shift: of the velocity by which the model's force goes, (m/s, s in which it is
     forgotten); None: found where force_error is. level: share of the time that bands are to hold. steps: of the filter per sample, 0: as
     many as its error asks for.
 

@@ -56,12 +56,26 @@ void require_signals(const InPlantSetup& setup, const std::vector<PlantRecording
     }
 }
 
+/// Whether the force leaps at some drive where the stroke crosses 0, while nothing moves.
+bool leaps_at_zero(const ObservedDamper& damper, const ObserverScale& scale) {
+  constexpr double kHardly = 1e-9, kLeap = 0.01;  // of stroke and force
+  const auto& [model, domain] = damper;
+  std::vector<double> z(model->state_size());
+  for (const double drive :
+       {domain.current_min, (domain.current_min + domain.current_max) / 2, domain.current_max}) {
+    model->rest({0, 0, drive}, z);
+    const auto force = [&](double x) { return model->force({x * scale.stroke, 0, drive}, z); };
+    if (std::abs(force(kHardly) - force(-kHardly)) > kLeap * scale.force) return true;
+  }
+  return false;
+}
+
 /// What is uncertain as logarithms of those that were not stated, which are searched for.
 class NoiseSearch {
  public:
-  /// At a first guess.
+  /// At a first guess. leaps: whether a damper's force does where the stroke crosses 0.
   NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-              const ObserverScale& scale, const ObserveOptions& options);
+              const ObserverScale& scale, bool leaps, const ObserveOptions& options);
 
   const ObserverNoise& first() const { return noise_; }
   /// The same from `found` on, beside a shift of the velocity which that has.
@@ -83,6 +97,7 @@ class NoiseSearch {
       beyond += (x[k] - inside) * (x[k] - inside);
       *sought_[k].place(noise) = std::exp(inside);
     }
+    if (least_staying_ > 0) size_staying_error(noise);
     return {std::move(noise), beyond};
   }
 
@@ -95,18 +110,28 @@ class NoiseSearch {
     sought_.push_back({std::move(place), std::log(low), std::log(high)});
   }
 
+  /// What stays of the force's error, of which a recording tells a single number: three times as
+  /// large as the quick one.
+  void size_staying_error(ObserverNoise& noise) const {
+    noise.force.back().deviation = std::max(3 * noise.force.front().deviation, least_staying_);
+  }
+
   ObserverNoise noise_;
+  double least_staying_ = 0;  ///< N; 0: no error that stays is looked for
   std::vector<Sought> sought_;
 };
 
 NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                         const ObserverScale& scale, const ObserveOptions& options) {
+                         const ObserverScale& scale, bool leaps, const ObserveOptions& options) {
   constexpr double kFirstForce = 0.02, kFirstNoise = 0.02, kWidest = 1e4, kSlowest = 5;
+  constexpr double kLeastStaying = 1e-3;
   constexpr double kFirstQuick = 5;                       // memory of the quick error, samples
   const double quickest = options.is_straight ? 2 : 0.5;  // where it goes straight it has one
   const double sample_time = recordings.front().sample_time;
 
-  // A quick error of the model and a slow one, which no single one can stand for.
+  // A quick error of the model and a slow one, which no single one can stand for; and one that
+  // stays, without which a sensor's zero would be taken for off. Beside a leap that draws the zero
+  // it would only leave that free to go.
   noise_.is_straight = options.is_straight;
   noise_.force = options.force;
   noise_.shift = options.shift;
@@ -118,6 +143,11 @@ NoiseSearch::NoiseSearch(const InPlantSetup& setup, const std::vector<PlantRecor
            2 * scale.force);
       seek([e](ObserverNoise& n) { return &n.force[e].memory; },
            e == 0 ? quickest * sample_time : kParted, e == 0 ? kParted : kSlowest);
+    }
+    if (!options.is_straight && !leaps) {
+      least_staying_ = kLeastStaying * scale.force;
+      noise_.force.push_back({0, kStayingError});
+      size_staying_error(noise_);
     }
   }
 
@@ -177,14 +207,12 @@ int enough_steps(const DamperModels& dampers, const InPlantSetup& setup, const O
     const PlantObserver observer(
         observer_tables(setup, dampers, noise, scale, recording.sample_time, tried), dampers);
     const ObservedRun run = filtered(observer, some);
-    const std::size_t all = observer.tables().all();
     std::vector<double> force;
     for (std::size_t k = 1; k < some.count; ++k)
       for (std::size_t d = 0; d < dampers.size(); ++d)
         force.push_back(observer
                             .damper_at(d, some.driven_at(k - 1), some.driven_at(k),
-                                       std::span(run.estimates).subspan(k * all, all),
-                                       std::span(run.covariances).subspan(k * all * all, all * all))
+                                       run.at(k, observer.tables()))
                             .force);
     return force;
   };
@@ -272,7 +300,7 @@ LikelyNoise most_likely(const NoiseSearch& search, const Telling& telling,
   };
 
   // Differences in every direction, a core each.
-  MinimiseOptions solver{.max_iterations = 40, .function_tolerance = 1e-5};
+  MinimiseOptions solver{.max_iterations = 60, .function_tolerance = 1e-6};
   solver.on_iteration = [&](int iteration, double, std::span<const double>) {
     options.monitor.check();
     options.monitor.report("uncertainties", begun + 0.0075 * iteration);
@@ -339,20 +367,6 @@ DamperMotions motions_of(const std::vector<ObservedSamples>& samples, const Obse
         motion.push_back({deflection[k], velocity[k], samples[r].drive_at(k, d)});
     }
   return motions;
-}
-
-/// Whether the force leaps at some drive where the stroke crosses 0, while nothing moves.
-bool leaps_at_zero(const ObservedDamper& damper, const ObserverScale& scale) {
-  constexpr double kHardly = 1e-9, kLeap = 0.01;  // of stroke and force
-  const auto& [model, domain] = damper;
-  std::vector<double> z(model->state_size());
-  for (const double drive :
-       {domain.current_min, (domain.current_min + domain.current_max) / 2, domain.current_max}) {
-    model->rest({0, 0, drive}, z);
-    const auto force = [&](double x) { return model->force({x * scale.stroke, 0, drive}, z); };
-    if (std::abs(force(kHardly) - force(-kHardly)) > kLeap * scale.force) return true;
-  }
-  return false;
 }
 
 /// Sensors whose zeros came out far from where they were looked for: the filter gives up a part of
@@ -437,16 +451,14 @@ ObservedRecording quantities_of(const PlantObserver& observer, const InPlantSetu
     told.quantities.push_back({names.states[k], names.state_units[k], {}, {}});
 
   for (std::size_t k = 0; k < count; ++k) {
-    const std::span<const double> estimate = std::span(run.estimates).subspan(k * all, all);
-    const std::span<const double> covariance =
-        std::span(run.covariances).subspan(k * all * all, all * all);
+    const auto [estimate, covariance] = run.at(k, t);
     const auto add = [&](std::size_t which, double value, double variance) {
       told.quantities[which].value.push_back(value);
       told.quantities[which].half.push_back(width * std::sqrt(std::max(variance, 0.0)));
     };
     for (std::size_t d = 0; d < dampers; ++d) {
       const PlantObserver::Damper damper = observer.damper_at(
-          d, samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), estimate, covariance);
+          d, samples.driven_at(k > 0 ? k - 1 : 0), samples.driven_at(k), {estimate, covariance});
       const DamperQuantities places = damper_quantities(d, dampers);
       add(places.force, damper.force,
           damper.deviation * damper.deviation + std::pow(scale_deviation * damper.force, 2));
@@ -591,7 +603,9 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   std::vector<ObservedSamples> samples = samples_of(setup, recordings);
   const std::vector<PlantRecording> usual = usual_parts(setup, recordings);
   std::vector<ObservedSamples> of_usual = samples_of(setup, usual);
-  const NoiseSearch search(setup, recordings, scale, options);
+  const bool leaps = std::ranges::any_of(
+      dampers, [&](const ObservedDamper& one) { return leaps_at_zero(one, scale); });
+  const NoiseSearch search(setup, recordings, scale, leaps, options);
 
   // The filter's step, by the recording that asks for the finest; then what was not stated.
   report.steps = std::max(options.steps, 1);
@@ -648,14 +662,14 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
     if (options.seeks_faults) add_sensor_faults(r, run);
     std::vector<ObservedSensor> sensors = one_ahead(setup, recordings[r], run, width);
     if (!options.causal) {
-      smooth(observers[r], run);
+      smooth(observers[r], samples[r], run);
       smooth_again(observers[r], samples[r], run);
     }
     report.recordings.push_back(quantities_of(observers[r], setup, recordings[r], samples[r], run,
                                               width, report.forces_known_within / kNormal95));
     const ObserverTables& t = observers[r].tables();
     for (std::size_t s = 0; s < sensors.size(); ++s)
-      sensors[s].offset = run.estimates[(samples[r].count - 1) * t.all() + t.moving() + s];
+      sensors[s].offset = run.at(samples[r].count - 1, t).estimate[t.moving() + s];
     report.recordings.back().sensors = std::move(sensors);
   }
 
@@ -668,8 +682,6 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
             told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
             " % band: the bands are too narrow, or damper, plant and noise are not this plant's");
-  const bool leaps = std::ranges::any_of(
-      dampers, [&](const ObservedDamper& one) { return leaps_at_zero(one, scale); });
   std::ranges::move(far_zeros(setup, scale, leaps, report), std::back_inserter(report.warnings));
   std::ranges::move(beyond_models(dampers, setup, motions_of(samples, report)),
                     std::back_inserter(report.warnings));

@@ -64,6 +64,24 @@ StepMatrices step_matrices(const DrivenPlant& plant, std::size_t acting, double 
   return m;
 }
 
+/// Whether small changes of a damper's state are followed; else it is carried along its motion.
+bool is_estimated(const DamperModel& damper) {
+  return damper.flows() && damper.state_size() <= kMostObservedDamper;
+}
+
+/// How large the numbers of the dampers' states are that are estimated.
+std::vector<double> estimated_scale(const std::vector<std::shared_ptr<const DamperModel>>& dampers,
+                                    const ObserverScale& scale) {
+  std::vector<double> sizes;
+  auto own = scale.state.begin();
+  for (const auto& damper : dampers) {
+    const auto end = own + static_cast<std::ptrdiff_t>(damper->state_size());
+    if (is_estimated(*damper)) sizes.insert(sizes.end(), own, end);
+    own = end;
+  }
+  return sizes;
+}
+
 /// The plant's state, 0 at first, behind steps over which one input went straight from each of
 /// these values to the next.
 std::vector<double> response_to(const StepMatrices& m, std::size_t p, std::size_t acting,
@@ -238,7 +256,11 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     t.on_ground.insert(t.on_ground.end(), place.on_ground.begin(),
                        place.on_ground.begin() + static_cast<std::ptrdiff_t>(measured));
   }
-  for (const auto& damper : dampers) t.damper.push_back(static_cast<int>(damper->state_size()));
+  for (const auto& damper : dampers) {
+    const auto size = static_cast<int>(damper->state_size());
+    t.damper.push_back(is_estimated(*damper) ? size : 0);
+    t.memory.push_back(is_estimated(*damper) ? 0 : size);
+  }
 
   // What a sample adds to the uncertainty of the plant and of what moved it, `own`.
   const std::size_t moving = t.moving(), error = p + roads;
@@ -300,7 +322,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
   }
 
   // The steps of differences, and a trace of uncertainty so that nothing counts as exact.
-  constexpr double kDifference = 1e-3, kTrace = 1e-4;
+  constexpr double kDifference = 1e-3, kTrace = 1e-4, kTraceOfStaying = 1e-3;
   for (std::size_t k = 0; k < p; ++k)
     t.difference.push_back(kDifference * (k < n ? scale.stroke : scale.speed));
   for (std::size_t r = 0; r < roads; ++r) t.difference.push_back(kDifference * scale.stroke);
@@ -308,11 +330,17 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     t.difference.insert(t.difference.end(), noise.force.size(), kDifference * scale.force);
     t.difference.insert(t.difference.end(), shifts, kDifference * scale.speed);
   }
-  for (const double size : scale.state) t.difference.push_back(kDifference * size);
+  const std::vector<double> of_states = estimated_scale(dampers, scale);
+  for (const double size : of_states) t.difference.push_back(kDifference * size);
   t.way = kDifference * scale.stroke;
   t.speed = kDifference * scale.speed;
-  for (std::size_t k = 0; k < moving; ++k)
-    t.process[k * moving + k] += std::pow(kTrace / kDifference * t.difference[k], 2);
+  std::vector<double> trace;
+  for (const double step : t.difference) trace.push_back(kTrace / kDifference * step);
+  for (std::size_t d = 0; d < dampers.size(); ++d)
+    for (std::size_t e = 0; e < noise.force.size(); ++e)
+      if (noise.force[e].memory >= kStayingError)
+        trace[error + d * errors + e] = kTraceOfStaying * noise.force[e].deviation;
+  for (std::size_t k = 0; k < moving; ++k) t.process[k * moving + k] += trace[k] * trace[k];
   add_sensors(equations, setup, noise, road_rate_variance, input_variance, t);
 
   // The start: at rest, or anywhere.
@@ -326,7 +354,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     for (const ForceError& one : noise.force) t.first_deviation.push_back(one.deviation);
     t.first_deviation.insert(t.first_deviation.end(), shifts, noise.shift.deviation);
   }
-  for (const double size : scale.state)
+  for (const double size : of_states)
     t.first_deviation.push_back((setup.from_rest ? kDifference : 1) * size);
   t.first_deviation.insert(t.first_deviation.end(), scale.offset.begin(), scale.offset.end());
   t.transition = std::move(matrices.transition);

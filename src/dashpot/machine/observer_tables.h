@@ -8,6 +8,9 @@
 
 namespace dashpot {
 
+/// s: an error with this memory stays what it is all along a recording.
+constexpr double kStayingError = 1e4;
+
 /// An error of the model's force that comes and goes: a first-order process.
 struct ForceError {
   double deviation = 0;  ///< N

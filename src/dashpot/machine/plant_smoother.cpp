@@ -14,30 +14,24 @@ using ConstMatrixMap = Eigen::Map<const RowMatrix>;
 using VectorMap = Eigen::Map<Eigen::VectorXd>;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 
-/// Estimate and covariance of a run at a sample.
-PlantObserver::Known known_at(const ObservedRun& run, std::size_t k, std::size_t all) {
-  return {std::span(run.estimates).subspan(k * all, all),
-          std::span(run.covariances).subspan(k * all * all, all * all)};
-}
-
 /// Calls see(k, estimate, covariance, sample) at every sample of the filter's run; stops where it
 /// returns false. along: a run at whose estimates tangents are taken; null: at the filter's own.
 template <class See>
 void run_filter(const PlantObserver& observer, const ObservedSamples& samples, std::size_t end,
                 const ObservedRun* along, const See& see) {
-  const std::size_t all = observer.tables().all();
-  std::vector<double> estimate(all), covariance(all * all);
+  const ObserverTables& t = observer.tables();
+  std::vector<double> estimate(t.kept()), covariance(t.all() * t.all());
   ObservedSample sample;
   for (std::size_t k = 0; k < end; ++k) {
     const auto now = samples.driven_at(k), measured = samples.measured_at(k);
     if (k == 0 && along)
-      observer.start_along(known_at(*along, 0, all), now, measured, samples.about, estimate,
-                           covariance, sample);
+      observer.start_along(along->at(0, t), now, measured, samples.about, estimate, covariance,
+                           sample);
     else if (k == 0)
       observer.start(now, measured, samples.about, estimate, covariance, sample);
     else if (along)
-      observer.step_along(known_at(*along, k - 1, all), known_at(*along, k, all),
-                          samples.driven_at(k - 1), now, measured, estimate, covariance, sample);
+      observer.step_along(along->at(k - 1, t), along->at(k, t), samples.driven_at(k - 1), now,
+                          measured, estimate, covariance, sample);
     else
       observer.step(samples.driven_at(k - 1), now, measured, estimate, covariance, sample);
     if (!see(k, estimate, covariance, sample)) return;
@@ -57,6 +51,16 @@ ObservedRun kept_run(const PlantObserver& observer, const ObservedSamples& sampl
                return true;
              });
   return run;
+}
+
+/// The memories of a run along the motion that it tells.
+void remember_all(const PlantObserver& observer, const ObservedSamples& samples, ObservedRun& run) {
+  const ObserverTables& t = observer.tables();
+  const std::span estimates(run.estimates);
+  observer.remember_first(samples.driven_at(0), estimates.first(t.kept()));
+  for (std::size_t k = 1; k < samples.count; ++k)
+    observer.remember(samples.driven_at(k - 1), samples.driven_at(k), run.at(k - 1, t).estimate,
+                      run.at(k, t).covariance, estimates.subspan(k * t.kept(), t.kept()));
 }
 
 }  // namespace
@@ -97,7 +101,7 @@ double misfit(const PlantObserver& observer, const ObservedSamples& samples, std
   return std::isfinite(sum) ? sum : static_cast<double>(INFINITY);
 }
 
-void smooth(const PlantObserver& observer, ObservedRun& run) {
+void smooth(const PlantObserver& observer, const ObservedSamples& samples, ObservedRun& run) {
   const ObserverTables& t = observer.tables();
   const auto all = static_cast<Eigen::Index>(t.all()),
              moving = static_cast<Eigen::Index>(t.moving());
@@ -106,7 +110,7 @@ void smooth(const PlantObserver& observer, ObservedRun& run) {
   RowMatrix information = RowMatrix::Zero(all, all);
   for (std::size_t k = run.samples.size(); k-- > 0;) {
     const ObservedSample& sample = run.samples[k];
-    VectorMap estimate(&run.estimates[k * t.all()], all);
+    VectorMap estimate(&run.estimates[k * t.kept()], all);
     MatrixMap covariance(&run.covariances[k * t.all() * t.all()], all, all);
     RowMatrix before = covariance;  // with fewer and fewer of the sensors taken in
 
@@ -134,13 +138,14 @@ void smooth(const PlantObserver& observer, ObservedRun& run) {
     information.topRows(moving) = (transition.transpose() * information.topRows(moving)).eval();
     information.leftCols(moving) = (information.leftCols(moving) * transition).eval();
   }
+  remember_all(observer, samples, run);
 }
 
 void smooth_again(const PlantObserver& observer, const ObservedSamples& samples, ObservedRun& run) {
   constexpr int kPasses = 3;
   for (int pass = 0; pass < kPasses; ++pass) {
     ObservedRun next = kept_run(observer, samples, &run);
-    smooth(observer, next);
+    smooth(observer, samples, next);
     if (!std::ranges::all_of(next.estimates, [](double x) { return std::isfinite(x); })) return;
     run = std::move(next);
   }
@@ -151,7 +156,7 @@ std::vector<double> smoothed_start(const PlantObserver& observer, const Observed
   ObservedSamples some = samples;
   some.count = std::min(samples.count, count);
   ObservedRun run = filtered(observer, some);
-  smooth(observer, run);
+  smooth(observer, some, run);
   const ObserverTables& t = observer.tables();
   run.estimates.resize(static_cast<std::size_t>(t.plant + t.roads));
   return run.estimates;

@@ -29,17 +29,23 @@ struct ObservedSamples {
 
 /// Estimates and covariances at every sample, and what the filter was told there.
 struct ObservedRun {
-  std::vector<double> estimates, covariances;  ///< count x all, count x all x all
+  std::vector<double> estimates, covariances;  ///< count x kept, count x all x all
   std::vector<ObservedSample> samples;
+
+  PlantObserver::Known at(std::size_t k, const ObserverTables& t) const {
+    return {std::span(estimates).subspan(k * t.kept(), t.kept()),
+            std::span(covariances).subspan(k * t.all() * t.all(), t.all() * t.all())};
+  }
 };
 
 /// The filter from the first sample to the last: each estimate knows the samples up to its own.
 ObservedRun filtered(const PlantObserver& observer, const ObservedSamples& samples);
 
-/// Lets every estimate of the run know the samples behind it too, in place.
+/// Lets every estimate of the run know the samples behind it too, in place; memories then go along
+/// the motion that it tells.
 /// Source: G. J. Bierman, Factorization Methods for Discrete Sequential Estimation, 1977: the
 /// smoother of Bryson and Frazier as he modified it, which inverts no covariance.
-void smooth(const PlantObserver& observer, ObservedRun& run);
+void smooth(const PlantObserver& observer, const ObservedSamples& samples, ObservedRun& run);
 
 /// Filters and smooths a smoothed run three times more, with tangents along what it told the time
 /// before: that goes to the most likely motion. Ends where it diverges.

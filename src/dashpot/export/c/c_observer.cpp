@@ -109,10 +109,14 @@ std::string filter_code(const ObserverTables& t) {
   for (const int size :
        {t.plant, t.inputs, t.drives, t.roads, t.dampers, t.errors, t.shifts, t.sensors, t.steps})
     sizes += std::to_string(size) + ", ";
-  for (const int size : t.damper) own += (own.empty() ? "" : ", ") + std::to_string(size);
-  return code + "static const int kDamper[] = {" + own +
-         "};\n\nstatic const PlantFilter kFilter = {" + sizes + c_number(t.step) + ", " +
-         c_number(t.road_keep) + ", kDamper" + places + ", " + c_number(t.way) + ", " +
+  for (const auto& [name, of_dampers] :
+       {std::pair{"kDamper", &t.damper}, std::pair{"kMemory", &t.memory}}) {
+    std::string row;
+    for (const int size : *of_dampers) row += (row.empty() ? "" : ", ") + std::to_string(size);
+    own += std::string("static const int ") + name + "[] = {" + row + "};\n";
+  }
+  return code + own + "\nstatic const PlantFilter kFilter = {" + sizes + c_number(t.step) + ", " +
+         c_number(t.road_keep) + ", kDamper, kMemory" + places + ", " + c_number(t.way) + ", " +
          c_number(t.speed) + ", " + c_number(t.shift_added) + "};\n\n";
 }
 
@@ -124,7 +128,7 @@ std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
   const auto inputs = static_cast<std::size_t>(t.inputs), sensors = names.sensors.size();
   const double force = 1000 * t.difference[static_cast<std::size_t>(t.plant + t.roads)];
   std::vector<CBlock::Sample> samples;
-  std::vector<double> estimate(t.all()), covariance(t.all() * t.all()), before;
+  std::vector<double> estimate(t.kept()), covariance(t.all() * t.all()), before;
   ObservedSample told;
   for (std::size_t k = 0; k < kObserverTestSteps; ++k) {
     const double place = static_cast<double>(k);
@@ -152,7 +156,7 @@ std::vector<CBlock::Sample> observer_run(const PlantObserver& observer,
     sample.inputs.insert(sample.inputs.end(), measured.begin(), measured.end());
     for (std::size_t d = 0; d < names.struts.size(); ++d) {
       const PlantObserver::Damper damper =
-          observer.damper_at(d, k == 0 ? now : before, now, estimate, covariance);
+          observer.damper_at(d, k == 0 ? now : before, now, {estimate, covariance});
       sample.commands.insert(sample.commands.end(),
                              {damper.force, damper.deviation, damper.deflection, damper.velocity});
     }
@@ -180,7 +184,7 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
   const auto* law = model_as<LawModel>(damper);
   const std::string stem = law ? "observed" : "model";
   const std::size_t all = t.all(), inputs = std::max<std::size_t>(1, names.inputs.size()),
-                    size = all + all * all + static_cast<std::size_t>(t.inputs + t.drives);
+                    size = t.kept() + all * all + static_cast<std::size_t>(t.inputs + t.drives);
   const Outputs outputs = outputs_of(observer, names);
   const std::string unit = to_string(names.drive_unit),
                     title = "Observer of a " + names.plant + " with the damper " + names.damper +
@@ -223,13 +227,16 @@ CBlock c_observer_block(const PlantObserver& observer, const ObserverNames& name
       "#define OBSERVED_REST @stem@_rest\n#define OBSERVED_ADVANCE @stem@_advance\n"
       "#define OBSERVED_FORCE @stem@_force\n#define FILTER_MOST @all@\n"
       "#define FILTER_MOST_SENSORS @sensors@\n#define FILTER_MOST_INPUTS @inputs@\n"
-      "#define FILTER_MOST_DAMPERS @dampers@\n#define FILTER_MOST_DAMPER @damper@\n\n",
+      "#define FILTER_MOST_DAMPERS @dampers@\n#define FILTER_MOST_DAMPER @damper@\n"
+      "#define FILTER_MOST_MEMORY @memory@\n#define FILTER_KEPT @kept@\n\n",
       {{"stem", CText::own(stem)},
        {"all", number(all)},
        {"sensors", number(names.sensors.size())},
        {"inputs", number(inputs)},
        {"dampers", number(names.struts.size())},
-       {"damper", number(std::max<std::size_t>(1, damper.state_size()))}});
+       {"damper", number(static_cast<std::size_t>(std::max(1, t.damper.front())))},
+       {"memory", number(static_cast<std::size_t>(t.memory.front()))},
+       {"kept", number(t.kept())}});
   const std::string code = (law ? c_law(*law, stem) : c_model(damper)).code;
 
   // The interface port by port, and the run that checks it.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int FILTER_MOST = kMostObserved, FILTER_MOST_SENSORS = kMostObservedSensors,
               FILTER_MOST_INPUTS = kMostObservedInputs, FILTER_MOST_DAMPERS = kMostObservedDampers,
-              FILTER_MOST_DAMPER = kMostObservedDamper;
+              FILTER_MOST_DAMPER = kMostObservedDamper, FILTER_MOST_MEMORY = kMostMemory;
 
 #include "dashpot/suspension/observe/c_text/plant_filter.h"
 
@@ -20,15 +20,20 @@ struct FilterWithDampers : PlantFilter {
   const std::shared_ptr<const DamperModel>* models = nullptr;
 };
 
+std::size_t memory_of(const PlantFilter& f, int d) { return static_cast<std::size_t>(f.memory[d]); }
+
+std::size_t state_size(const PlantFilter& f, int d) {
+  return static_cast<std::size_t>(f.damper[d] + f.memory[d]);
+}
+
 inline double filter_force(const PlantFilter* f, int d, const DamperInput* input, const double* z) {
-  return static_cast<const FilterWithDampers*>(f)->models[d]->force(
-      *input, {z, static_cast<std::size_t>(f->damper[d])});
+  return static_cast<const FilterWithDampers*>(f)->models[d]->force(*input, {z, state_size(*f, d)});
 }
 
 inline void filter_advance(const PlantFilter* f, int d, const DamperInput* from,
                            const DamperInput* to, double dt, double* z) {
-  static_cast<const FilterWithDampers*>(f)->models[d]->advance(
-      *from, *to, dt, {z, static_cast<std::size_t>(f->damper[d])});
+  static_cast<const FilterWithDampers*>(f)->models[d]->advance(*from, *to, dt,
+                                                               {z, state_size(*f, d)});
 }
 
 FilterWithDampers filter_of(const ObserverTables& t,
@@ -46,6 +51,7 @@ FilterWithDampers filter_of(const ObserverTables& t,
                                   .step = t.step,
                                   .road_keep = t.road_keep,
                                   .damper = t.damper.data(),
+                                  .memory = t.memory.data(),
                                   .error_keep = t.error_keep.data(),
                                   .transition = t.transition.data(),
                                   .by_start = t.by_start.data(),
@@ -82,7 +88,7 @@ void take_along(const FilterWithDampers& f, PlantObserver::Known known,
                 std::span<double> covariance, FilterSample& told) {
   filter_expect(&f, before.data(), now.data(), measured.data(), known.estimate.data(),
                 known.covariance.data(), &told);
-  const std::size_t all = estimate.size();
+  const auto all = static_cast<std::size_t>(filter_all(&f));
   for (std::size_t s = 0; s < measured.size(); ++s)
     for (std::size_t k = 0; k < all; ++k)
       told.innovation[s] -= told.rows[s * all + k] * (estimate[k] - known.estimate[k]);
@@ -94,19 +100,13 @@ void take_along(const FilterWithDampers& f, PlantObserver::Known known,
 PlantObserver::PlantObserver(ObserverTables tables,
                              std::vector<std::shared_ptr<const DamperModel>> dampers)
     : tables_(std::move(tables)), dampers_(std::move(dampers)) {
-  // What a filter can follow.
-  for (const auto& damper : dampers_) {
-    if (!damper->flows())
-      throw Error(damper->name(), "its states have no rates: a filter cannot follow them",
-                  "a law, a hybrid, or a network without a feedback of its force");
-    if (damper->state_size() > kMostObservedDamper)
-      throw Error(damper->name(),
-                  "has " + std::to_string(damper->state_size()) + " states, and a filter follows " +
-                      std::to_string(kMostObservedDamper),
-                  "a law of the same damper, as tanh_kwok or bouc_wen");
-  }
-
   // What the arrays of the filter have room for.
+  for (const auto& damper : dampers_)
+    if (damper->state_size() > kMostMemory)
+      throw Error(damper->name(),
+                  "has " + std::to_string(damper->state_size()) + " states, and a filter carries " +
+                      std::to_string(kMostMemory),
+                  "a law of the same damper, as tanh_kwok or bouc_wen");
   const auto require = [](std::size_t count, std::size_t most, const std::string& what) {
     if (count > most)
       throw Error("observer", "has " + std::to_string(count) + " " + what,
@@ -127,15 +127,14 @@ void PlantObserver::before_first(std::span<const double> now, std::span<const do
   std::ranges::fill(covariance, 0.0);
 
   // Each damper at rest under its drive; plant and roads as far as they are known.
-  std::size_t own = tables_.own();
   const FilterWithDampers f = filter_of(tables_, dampers_);
-  for (std::size_t d = 0; d < dampers_.size(); ++d) {
-    const int drive = filter_drive(&f, static_cast<int>(d));
-    dampers_[d]->rest({0, 0, now[static_cast<std::size_t>(drive)]},
-                      estimate.subspan(own, dampers_[d]->state_size()));
-    own += dampers_[d]->state_size();
-  }
+  for (int d = 0; d < tables_.dampers; ++d)
+    if (tables_.memory[static_cast<std::size_t>(d)] == 0)
+      dampers_[static_cast<std::size_t>(d)]->rest(
+          {0, 0, now[static_cast<std::size_t>(filter_drive(&f, d))]},
+          estimate.subspan(static_cast<std::size_t>(filter_own(&f, d)), state_size(f, d)));
   std::ranges::copy(about, estimate.begin());
+  remember_first(now, estimate);
 
   // How uncertain all of it is.
   const auto plant = static_cast<std::size_t>(tables_.plant);
@@ -162,11 +161,13 @@ void PlantObserver::step(std::span<const double> before, std::span<const double>
                          std::span<const double> measured, std::span<double> estimate,
                          std::span<double> covariance, ObservedSample& sample) const {
   const FilterWithDampers f = filter_of(tables_, dampers_);
+  const std::vector<double> past(estimate.begin(), estimate.end());
   FilterSample told;
   filter_predict(&f, before.data(), now.data(), estimate.data(), covariance.data(),
                  told.transition);
   filter_update(&f, before.data(), now.data(), measured.data(), estimate.data(), covariance.data(),
                 &told);
+  filter_remember(&f, before.data(), now.data(), past.data(), covariance.data(), estimate.data());
   keep(tables_, told, true, sample);
 }
 
@@ -201,14 +202,33 @@ void PlantObserver::step_along(Known earlier, Known later, std::span<const doubl
   keep(tables_, told, true, sample);
 }
 
+void PlantObserver::remember_first(std::span<const double> now, std::span<double> estimate) const {
+  const FilterWithDampers f = filter_of(tables_, dampers_);
+  const std::vector<double> still(static_cast<std::size_t>(filter_given(&f)));
+  for (int d = 0; d < tables_.dampers; ++d) {
+    DamperInput rest;
+    filter_input(&f, d, now.data(), still.data(), estimate.data(), &rest);
+    rest.velocity = 0;
+    const auto place = static_cast<std::size_t>(filter_memory(&f, d)), size = memory_of(f, d);
+    for (std::size_t copy = 0; copy < 3 && size > 0; ++copy)
+      dampers_[static_cast<std::size_t>(d)]->rest(rest,
+                                                  estimate.subspan(place + copy * size, size));
+  }
+}
+
+void PlantObserver::remember(std::span<const double> before, std::span<const double> now,
+                             std::span<const double> past, std::span<const double> covariance,
+                             std::span<double> estimate) const {
+  const FilterWithDampers f = filter_of(tables_, dampers_);
+  filter_remember(&f, before.data(), now.data(), past.data(), covariance.data(), estimate.data());
+}
+
 PlantObserver::Damper PlantObserver::damper_at(std::size_t damper, std::span<const double> before,
-                                               std::span<const double> now,
-                                               std::span<const double> estimate,
-                                               std::span<const double> covariance) const {
+                                               std::span<const double> now, Known known) const {
   const FilterWithDampers f = filter_of(tables_, dampers_);
   double out[4];
-  filter_damper(&f, static_cast<int>(damper), before.data(), now.data(), estimate.data(),
-                covariance.data(), out);
+  filter_damper(&f, static_cast<int>(damper), before.data(), now.data(), known.estimate.data(),
+                known.covariance.data(), out);
   return {out[0], out[1], out[2], out[3]};
 }
 

@@ -11,10 +11,10 @@
 
 namespace dashpot {
 
-/// The most numbers of an estimate, sensors, measured inputs, dampers and numbers of the state of
-/// one.
+/// The most numbers of a covariance, sensors, measured inputs, dampers, numbers of the state of one
+/// that is estimated, and of one that is carried along its motion.
 constexpr std::size_t kMostObserved = 68, kMostObservedSensors = 12, kMostObservedInputs = 8,
-                      kMostObservedDampers = 4, kMostObservedDamper = 12;
+                      kMostObservedDampers = 4, kMostObservedDamper = 12, kMostMemory = 512;
 
 /// The tables of a filter of a plant, as c_text/plant_filter.h names and orders them. SI.
 struct ObserverTables {
@@ -22,7 +22,8 @@ struct ObserverTables {
       sensors = 0, steps = 1;
   double step = 0;  ///< s
   double road_keep = 1;
-  std::vector<int> damper;  ///< numbers of each one's state
+  /// Numbers of each one's state: that are estimated, or that are carried along its motion.
+  std::vector<int> damper, memory;
   std::vector<double> error_keep, transition, by_start, by_end, deflection, on_ground;
   std::vector<double> sensor_plant, sensor_input, sensor_slope, sensor_road, sensor_force;
   std::vector<double> sensor_variance, process, difference;
@@ -37,7 +38,12 @@ struct ObserverTables {
   std::size_t moving() const {
     return own() + static_cast<std::size_t>(std::accumulate(damper.begin(), damper.end(), 0));
   }
+  /// Numbers of a covariance.
   std::size_t all() const { return moving() + static_cast<std::size_t>(sensors); }
+  /// Numbers of an estimate: the memories stand behind those of the covariance.
+  std::size_t kept() const {
+    return all() + 3 * static_cast<std::size_t>(std::accumulate(memory.begin(), memory.end(), 0));
+  }
 };
 
 /// What the numbers of an estimate and the places of the samples are called, for whoever writes
@@ -62,13 +68,12 @@ struct ObservedSample {
 /// An extended Kalman filter of a linear plant with dampers in it: the state of the plant, the road
 /// where nothing measures it, each damper's own state, errors of its force that come and go and of
 /// the velocity by which it goes, and an offset per sensor, from what the sensors show. The same
-/// text is the exported C. Immutable; estimate (all() numbers) and covariance (all() x all()) are
+/// text is the exported C. Immutable; estimate (kept() numbers) and covariance (all() x all()) are
 /// the caller's. Source: R. E. Kalman 1960; A. Gelb, Applied Optimal Estimation, 1974, for the
 /// extended one.
 class PlantObserver {
  public:
-  /// Throws Error where a damper's states have no rates, so that nothing can be said of small
-  /// changes of them, and where there are more numbers than kMostObserved...
+  /// Throws Error where there are more numbers than kMostObserved...
   PlantObserver(ObserverTables tables, std::vector<std::shared_ptr<const DamperModel>> dampers);
 
   const ObserverTables& tables() const { return tables_; }
@@ -97,12 +102,18 @@ class PlantObserver {
                   std::span<const double> now, std::span<const double> measured,
                   std::span<double> estimate, std::span<double> covariance,
                   ObservedSample& sample) const;
+  /// The dampers' memories along a motion that is told, in its estimates: at the first sample, and
+  /// from the sample before to this one.
+  void remember_first(std::span<const double> now, std::span<double> estimate) const;
+  void remember(std::span<const double> before, std::span<const double> now,
+                std::span<const double> past, std::span<const double> covariance,
+                std::span<double> estimate) const;
   /// Force of a damper, N, with its standard deviation, deflection m and its rate m/s.
   struct Damper {
     double force = 0, deviation = 0, deflection = 0, velocity = 0;
   };
   Damper damper_at(std::size_t damper, std::span<const double> before, std::span<const double> now,
-                   std::span<const double> estimate, std::span<const double> covariance) const;
+                   Known known) const;
 
  private:
   void before_first(std::span<const double> now, std::span<const double> about,

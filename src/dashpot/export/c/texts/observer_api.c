@@ -32,10 +32,10 @@ void damper_init(damper_model* model) {
 }
 
 void damper_reset(damper_model* model, const damper_input* input) {
-  double* c = &model->state[FILTER_MOST];
-  double* before = &model->state[FILTER_MOST + (FILTER_MOST * FILTER_MOST)];
+  double* c = &model->state[FILTER_KEPT];
+  double* before = &model->state[FILTER_KEPT + (FILTER_MOST * FILTER_MOST)];
   DamperInput still;
-  int k;
+  int copy, k;
   damper_init(model);
   model->started = 1;
   observer_inputs(input, before, before);
@@ -43,7 +43,9 @@ void damper_reset(damper_model* model, const damper_input* input) {
   still.velocity = 0;
   for (k = 0; k < kFilter.dampers; ++k) {
     still.current = before[filter_drive(&kFilter, k)];
-    OBSERVED_REST(&still, &model->state[filter_own(&kFilter, k)]);
+    for (copy = 0; copy < ((kFilter.memory[k] > 0) ? 3 : 1); ++copy) {
+      OBSERVED_REST(&still, &model->state[filter_state(&kFilter, k) + (copy * kFilter.memory[k])]);
+    }
   }
   for (k = 0; k < FILTER_MOST; ++k) {
     c[(k * FILTER_MOST) + k] = kFirstDeviation[k] * kFirstDeviation[k];
@@ -52,9 +54,9 @@ void damper_reset(damper_model* model, const damper_input* input) {
 
 void damper_step(damper_model* model, const damper_input* input, double* outputs) {
   double* s = model->state;
-  double* c = &model->state[FILTER_MOST];
-  double* before = &model->state[FILTER_MOST + (FILTER_MOST * FILTER_MOST)];
-  double now[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS];
+  double* c = &model->state[FILTER_KEPT];
+  double* before = &model->state[FILTER_KEPT + (FILTER_MOST * FILTER_MOST)];
+  double now[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS], past[FILTER_KEPT];
   FilterSample sample;
   int k;
   if (model->started == 0) {
@@ -65,10 +67,15 @@ void damper_step(damper_model* model, const damper_input* input, double* outputs
   observer_inputs(input, before, now);
   if (model->started == 1) {
     model->started = 2;
+    filter_update(&kFilter, before, now, input->sensors, s, c, &sample);
   } else {
+    for (k = 0; k < FILTER_KEPT; ++k) {
+      past[k] = s[k];
+    }
     filter_predict(&kFilter, before, now, s, c, sample.transition);
+    filter_update(&kFilter, before, now, input->sensors, s, c, &sample);
+    filter_remember(&kFilter, before, now, past, c, s);
   }
-  filter_update(&kFilter, before, now, input->sensors, s, c, &sample);
 
   /* What is told: each damper, then plant and roads. */
   for (k = 0; k < kFilter.dampers; ++k) {

@@ -1,13 +1,19 @@
 /* An extended Kalman filter of a linear plant with dampers in it, as C99 text that the library
  * takes in and the C export ships. Declared before: DamperInput; FILTER_MOST, the most numbers of
- * an estimate, FILTER_MOST_SENSORS, FILTER_MOST_INPUTS, FILTER_MOST_DAMPERS and FILTER_MOST_DAMPER,
- * the most numbers of a damper's state. filter_force and filter_advance, which step the model of
- * damper d, may be defined behind it.
+ * an estimate's covariance, FILTER_MOST_SENSORS, FILTER_MOST_INPUTS, FILTER_MOST_DAMPERS,
+ * FILTER_MOST_DAMPER, the most numbers of a damper's state that is estimated, and
+ * FILTER_MOST_MEMORY, of one that is carried along. filter_force and filter_advance, which step the
+ * model of damper d, may be defined behind it.
  *
  * An estimate s: coordinates of the plant and their velocities; heights of the road where nothing
  * measures it; damper by damper errors of its force, N, that are forgotten sooner or later, and the
  * shift of the velocity by which its force goes, m/s; damper by damper its own state; the sensors'
- * offsets. All but the offsets move. Its covariance c: a row per number. */
+ * offsets. All but the offsets move. Its covariance c: a row per number.
+ *
+ * A damper's state of many numbers, or one without rates, is not estimated but carried along the
+ * motion that is told, in which it forgets what it was wrong by; it stands behind the offsets, as a
+ * memory that the covariance knows nothing of: the state, and what it would be, had the damper
+ * always been as much faster, and slower, as its velocity is uncertain. */
 #ifndef DASHPOT_PLANT_FILTER_H
 #define DASHPOT_PLANT_FILTER_H
 
@@ -23,7 +29,8 @@ typedef struct PlantFilter {
   int steps;                  /* per sample */
   double step;                /* s */
   double road_keep;           /* the share of a road's height that is left after a step */
-  const int* damper;          /* dampers: numbers of its state */
+  const int* damper;          /* dampers: numbers of its state that are estimated */
+  const int* memory;          /* dampers: those that are carried along: of one or the other, none */
   const double* error_keep;   /* errors + shifts: the share that is left after a step */
   const double* transition;   /* plant x plant, over a step */
   const double* by_start;     /* plant x (inputs + roads + dampers): of inputs, roads and forces */
@@ -87,6 +94,20 @@ static inline int filter_own(const PlantFilter* f, int d) {
 static inline int filter_moving(const PlantFilter* f) { return filter_own(f, f->dampers); }
 
 static inline int filter_all(const PlantFilter* f) { return filter_moving(f) + f->sensors; }
+
+/* Where the memory of damper d stands; behind the last: the end of an estimate. */
+static inline int filter_memory(const PlantFilter* f, int d) {
+  int place = filter_all(f), k;
+  for (k = 0; k < d; ++k) {
+    place += 3 * f->memory[k];
+  }
+  return place;
+}
+
+/* Where the state of damper d stands, estimated or carried along. */
+static inline int filter_state(const PlantFilter* f, int d) {
+  return (f->memory[d] > 0) ? filter_memory(f, d) : filter_own(f, d);
+}
 
 /* What is given at a sample: the inputs and the drives behind them. */
 static inline int filter_given(const PlantFilter* f) { return f->inputs + f->drives; }
@@ -210,8 +231,24 @@ static inline void filter_reach(const PlantFilter* f, int d, const double* c, do
   }
 }
 
+/* Brings the state of damper d over a step; beside a memory those of a damper that is always so
+ * much faster and slower, which stand behind it. */
+static inline void filter_go(const PlantFilter* f, int d, const DamperInput* first,
+                             const DamperInput* last, double speed, double* z) {
+  int side;
+  filter_advance(f, d, first, last, f->step, z);
+  for (side = 0; (side < 2) && (f->memory[d] > 0); ++side) {
+    const double by_much = (side == 0) ? speed : -speed;
+    DamperInput from = *first, to = *last;
+    from.velocity += by_much;
+    to.velocity += by_much;
+    filter_advance(f, d, &from, &to, f->step, &z[(1 + side) * f->memory[d]]);
+  }
+}
+
 /* What a model's force depends on: displacement, velocity, then each number of its state; by
- * differences to both sides. */
+ * differences to both sides. By the velocity a memory changes too, as it would if the difference
+ * had been there all along. */
 static inline void filter_by_force(const PlantFilter* f, int d, const DamperInput* at,
                                    const double* z, const double* reach, double* by) {
   double beside_z[FILTER_MOST_DAMPER];
@@ -225,15 +262,18 @@ static inline void filter_by_force(const PlantFilter* f, int d, const DamperInpu
     double force[2];
     for (side = 0; side < 2; ++side) {
       const double by_much = (side == 0) ? reach[k] : -reach[k];
+      const double* state = z;
       DamperInput beside = *at;
       if (k == 0) {
         beside.displacement += by_much;
       } else if (k == 1) {
         beside.velocity += by_much;
+        state = &z[(1 + side) * f->memory[d]];
       } else {
         beside_z[k - 2] = z[k - 2] + by_much;
+        state = beside_z;
       }
-      force[side] = filter_force(f, d, &beside, beside_z);
+      force[side] = filter_force(f, d, &beside, state);
     }
     if (k > 1) {
       beside_z[k - 2] = z[k - 2];
@@ -403,20 +443,25 @@ static inline void filter_move_column(const PlantFilter* f, const FilterDamper* 
 }
 
 /* A step of damper d from its motion `over->first` along a way to where the plant arrives under the
- * forces at the start: its force there with its errors, and what depends on what. */
-static inline double filter_look(const PlantFilter* f, int d, const double* c, const double* s,
+ * forces at the start: its force there with its errors, and what depends on what. Its memory, which
+ * costs most, goes along this way once and for all. */
+static inline double filter_look(const PlantFilter* f, int d, const double* c, double* s,
                                  FilterDamper* over) {
-  double reach[FILTER_MOST_DAMPER + 2], z[FILTER_MOST_DAMPER];
-  const double* own = &s[filter_own(f, d)];
+  double reach[FILTER_MOST_DAMPER + 2], z[FILTER_MOST_DAMPER + (3 * FILTER_MOST_MEMORY)];
+  const double* own = &s[filter_state(f, d)];
+  const int size = f->damper[d] + (3 * f->memory[d]);
   int k;
-  for (k = 0; k < FILTER_MOST_DAMPER; ++k) {
-    z[k] = (k < f->damper[d]) ? own[k] : 0;
+  for (k = 0; k < size; ++k) {
+    z[k] = own[k];
   }
   filter_reach(f, d, c, reach);
-  filter_advance(f, d, &over->first, &over->last, f->step, z);
+  filter_go(f, d, &over->first, &over->last, reach[1], z);
   filter_by_force(f, d, &over->first, own, reach, over->by_first);
   filter_by_force(f, d, &over->last, z, reach, over->by_last);
   filter_by_state(f, d, &over->first, &over->last, own, reach, over->by_state);
+  for (k = 0; k < (3 * f->memory[d]); ++k) {
+    s[filter_memory(f, d) + k] = z[k];
+  }
   return filter_force(f, d, &over->last, z) + filter_errors(f, d, s, 1);
 }
 
@@ -449,7 +494,7 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
       filter_input(f, d, from, slopes, s, &over[d].first);
       filter_shift_motion(f, d, s, 0, &over[d].first);
       start[d] =
-          filter_force(f, d, &over[d].first, &s[filter_own(f, d)]) + filter_errors(f, d, s, 0);
+          filter_force(f, d, &over[d].first, &s[filter_state(f, d)]) + filter_errors(f, d, s, 0);
     }
     filter_linear(f, from, to, &s[f->plant], start, start, s, end);
 
@@ -467,7 +512,9 @@ static inline void filter_move(const PlantFilter* f, const double* before, const
     for (d = 0; d < f->dampers; ++d) {
       filter_input(f, d, to, slopes, end, &over[d].last);
       filter_shift_motion(f, d, s, 1, &over[d].last);
-      filter_advance(f, d, &over[d].first, &over[d].last, f->step, &s[filter_own(f, d)]);
+      if (f->memory[d] == 0) {
+        filter_advance(f, d, &over[d].first, &over[d].last, f->step, &s[filter_own(f, d)]);
+      }
       for (k = 0; k < (f->errors + f->shifts); ++k) {
         s[filter_error(f, d) + k] *= f->error_keep[k];
       }
@@ -547,7 +594,7 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
   /* Slopes of its model, as far as what it goes by is uncertain. */
   filter_shift_motion(f, d, s, 0, &shifted);
   filter_reach(f, d, c, reach);
-  filter_by_force(f, d, &shifted, &s[own], reach, by);
+  filter_by_force(f, d, &shifted, &s[filter_state(f, d)], reach, by);
 
   /* By the plant, then by its own errors, shift and state; by nothing of the others. */
   for (k = 0; k < half; ++k) {
@@ -566,7 +613,7 @@ static inline double filter_gradient(const PlantFilter* f, int d, const DamperIn
   for (k = 0; k < f->damper[d]; ++k) {
     gradient[own + k] = by[2 + k];
   }
-  return filter_force(f, d, &shifted, &s[own]) + filter_errors(f, d, s, 0);
+  return filter_force(f, d, &shifted, &s[filter_state(f, d)]) + filter_errors(f, d, s, 0);
 }
 
 /* What each sensor depends on at an estimate, a row of `sample` each, and what it shows beyond what
@@ -671,6 +718,39 @@ static inline void filter_update(const PlantFilter* f, const double* before, con
                                  FilterSample* sample) {
   filter_expect(f, before, now, measured, s, c, sample);
   filter_take(f, s, c, sample);
+}
+
+/* Brings the memories along the motion that is told, from the estimate at the sample before to s,
+ * straight in between. */
+static inline void filter_remember(const PlantFilter* f, const double* before, const double* now,
+                                   const double* past, const double* c, double* s) {
+  double slopes[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS], reach[FILTER_MOST_DAMPER + 2];
+  int d, k, step;
+  filter_slopes(f, before, now, slopes);
+  for (d = 0; d < f->dampers; ++d) {
+    double* z = &s[filter_memory(f, d)];
+    DamperInput start, end, from, to;
+    if (f->memory[d] == 0) {
+      continue;
+    }
+    for (k = 0; k < (3 * f->memory[d]); ++k) {
+      z[k] = past[filter_memory(f, d) + k];
+    }
+    filter_input(f, d, before, slopes, past, &start);
+    filter_shift_motion(f, d, past, 0, &start);
+    filter_input(f, d, now, slopes, s, &end);
+    filter_shift_motion(f, d, s, 0, &end);
+    filter_reach(f, d, c, reach);
+    to = start;
+    for (step = 1; step <= f->steps; ++step) {
+      const double share = (double)step / (double)f->steps;
+      from = to;
+      to.displacement = start.displacement + (share * (end.displacement - start.displacement));
+      to.velocity = start.velocity + (share * (end.velocity - start.velocity));
+      to.current = start.current + (share * (end.current - start.current));
+      filter_go(f, d, &from, &to, reach[1], z);
+    }
+  }
 }
 
 /* Damper d now, after filter_update(): its force with its errors, N; the standard deviation of
