@@ -260,6 +260,7 @@ ObserverTables observer_tables(const InPlantSetup& setup,
     const auto size = static_cast<int>(damper->state_size());
     t.damper.push_back(is_estimated(*damper) ? size : 0);
     t.memory.push_back(is_estimated(*damper) ? 0 : size);
+    t.by_way.push_back(damper->needs_displacement() ? 1 : 0);
   }
 
   // What a sample adds to the uncertainty of the plant and of what moved it, `own`.

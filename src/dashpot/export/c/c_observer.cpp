@@ -110,14 +110,15 @@ std::string filter_code(const ObserverTables& t) {
        {t.plant, t.inputs, t.drives, t.roads, t.dampers, t.errors, t.shifts, t.sensors, t.steps})
     sizes += std::to_string(size) + ", ";
   for (const auto& [name, of_dampers] :
-       {std::pair{"kDamper", &t.damper}, std::pair{"kMemory", &t.memory}}) {
+       {std::pair{"kDamper", &t.damper}, std::pair{"kMemory", &t.memory},
+        std::pair{"kByWay", &t.by_way}}) {
     std::string row;
     for (const int size : *of_dampers) row += (row.empty() ? "" : ", ") + std::to_string(size);
     own += std::string("static const int ") + name + "[] = {" + row + "};\n";
   }
   return code + own + "\nstatic const PlantFilter kFilter = {" + sizes + c_number(t.step) + ", " +
-         c_number(t.road_keep) + ", kDamper, kMemory" + places + ", " + c_number(t.way) + ", " +
-         c_number(t.speed) + ", " + c_number(t.shift_added) + "};\n\n";
+         c_number(t.road_keep) + ", kDamper, kMemory, kByWay" + places + ", " + c_number(t.way) +
+         ", " + c_number(t.speed) + ", " + c_number(t.shift_added) + "};\n\n";
 }
 
 /// A run of signals that are large beside the sensors' noise, and what the library makes of it.

@@ -24,6 +24,7 @@ struct ObserverTables {
   double road_keep = 1;
   /// Numbers of each one's state: that are estimated, or that are carried along its motion.
   std::vector<int> damper, memory;
+  std::vector<int> by_way;  ///< whether each one's force goes by its displacement: 0 or 1
   std::vector<double> error_keep, transition, by_start, by_end, deflection, on_ground;
   std::vector<double> sensor_plant, sensor_input, sensor_slope, sensor_road, sensor_force;
   std::vector<double> sensor_variance, process, difference;

@@ -31,6 +31,7 @@ typedef struct PlantFilter {
   double road_keep;           /* the share of a road's height that is left after a step */
   const int* damper;          /* dampers: numbers of its state that are estimated */
   const int* memory;          /* dampers: those that are carried along: of one or the other, none */
+  const int* by_way;          /* dampers: whether its force goes by its displacement: 0 or 1 */
   const double* error_keep;   /* errors + shifts: the share that is left after a step */
   const double* transition;   /* plant x plant, over a step */
   const double* by_start;     /* plant x (inputs + roads + dampers): of inputs, roads and forces */
@@ -258,7 +259,8 @@ static inline void filter_by_force(const PlantFilter* f, int d, const DamperInpu
   }
 
   /* One after the other a little more and a little less. */
-  for (k = 0; k < (2 + f->damper[d]); ++k) {
+  by[0] = 0;
+  for (k = (f->by_way[d] > 0) ? 0 : 1; k < (2 + f->damper[d]); ++k) {
     double force[2];
     for (side = 0; side < 2; ++side) {
       const double by_much = (side == 0) ? reach[k] : -reach[k];
