@@ -108,6 +108,10 @@ TEST_CASE("design request: what is wrong is named") {
   says(request("gap: {from: 1 mm, to: 2 mm}",
                "goals: [{minimise: mass}]\nfollow: {gap: {pole_length: 1}}"),
        "both varies and follows");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "goals: [{minimise: mass}]\n"
+               "follow: {core_length: {stroke: 1}, stroke: {core_length: 1}}"),
+       "core_length, stroke follow each other in a circle; one of them a value");
   says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{maximise: force}]"),
        "force is asked at rest, where nothing flows; a velocity, as at: {");
   says(request("gap: {from: 1 mm, to: 2 mm}",
@@ -130,6 +134,19 @@ TEST_CASE("design request: what is wrong is named") {
   says(request("fluid: [132DH]"), "unknown fluid");
   says("vary: {gap: [1 mm]}\ngoals: [{minimise: mass}]", "damper");
   says("damper: car\nvary: {gap: [1 mm]}", "unknown damper 'car'");
+}
+
+TEST_CASE("design request: a field that follows a follower has the value that this gets") {
+  const DesignRequest parsed =
+      parse_request(request("gap: {from: 1 mm, to: 2 mm}",
+                            "goals: [{minimise: mass}]\n"
+                            "follow: {core_length: {stroke: 1}, stroke: {pole_length: 5}, "
+                            "pole_length: {gap: 10}}"),
+                    "request.yaml");
+  REQUIRE(parsed.following.size() == 3);
+  CHECK(parsed.following[0].field->name == "pole_length");
+  CHECK(parsed.following[1].field->name == "stroke");
+  CHECK(parsed.following[2].field->name == "core_length");
 }
 
 TEST_CASE("design request: a figure at two places, or by two models, is two goals") {

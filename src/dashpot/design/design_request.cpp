@@ -277,6 +277,28 @@ void require_consistent(const DesignRequest& request, const std::string& source,
   }
 }
 
+/// Those that are followed before those that follow them, so that one pass sets them all.
+void put_in_order(std::vector<FollowingField>& following, const std::string& source) {
+  std::vector<FollowingField> ordered;
+  while (!following.empty()) {
+    const auto waits = [&](const FollowingField& one) {
+      return std::ranges::any_of(one.terms, [&](const auto& term) {
+        return std::ranges::find(following, term.first, &FollowingField::field) != following.end();
+      });
+    };
+    const auto next = std::ranges::find_if_not(following, waits);
+    if (next == following.end()) {
+      std::vector<std::string> names;
+      for (const FollowingField& one : following) names.emplace_back(one.field->name);
+      throw Error(source, join(names, ", ") + " follow each other in a circle",
+                  "one of them a value of the damper, or one that varies");
+    }
+    ordered.push_back(std::move(*next));
+    following.erase(next);
+  }
+  following = std::move(ordered);
+}
+
 template <class Read>
 void each_member(ObjectReader& reader, std::string_view key, Read read) {
   if (const Value* value = reader.optional(key))
@@ -369,6 +391,7 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
   // Unknown keys and contradictions are refused.
   reader.finish();
   require_consistent(request, source, goals);
+  put_in_order(request.following, source);
   return request;
 }
 

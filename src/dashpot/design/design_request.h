@@ -62,7 +62,7 @@ struct DesignRequest {
   std::string name, note;
   DamperDescription damper;  ///< what does not vary
   std::vector<DesignVariable> variables;
-  std::vector<FollowingField> following;
+  std::vector<FollowingField> following;  ///< none before one that it follows
   std::vector<DesignConstraint> constraints;
   std::vector<DesignGoal> goals;
   std::vector<DesignTolerance> tolerances;
