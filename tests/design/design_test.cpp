@@ -187,6 +187,15 @@ TEST_CASE("design: ranges of which no damper can be drawn are told from constrai
       "mass}]\n");
   REQUIRE(report.conflict);
   CHECK(report.conflict->undrawable);
+  CHECK(contains(describe(*report.conflict, report.request), "rod_diameter is "));
+
+  // A core of 22 m fits into nothing, but that is not why.
+  const DesignReport core = designed(
+      "damper: passenger_car\nvary: {gap: {from: 1 mm, to: 2 mm}}\n"
+      "follow: {core_length: {constant: 22}}\ngoals: [{minimise: mass}]\n");
+  REQUIRE(core.conflict);
+  CHECK(contains(describe(*core.conflict, core.request),
+                 "can be drawn: core_length is 22 m; 0.0001 ... 10 m"));
 
   // A gap of 1 mm can be drawn, and with +-3 mm not be made.
   const DesignReport made = designed(

@@ -44,6 +44,16 @@ std::vector<bool> first_members(const DesignProblem& problem, const OptimiseOpti
   return can_hold(problem, near, options, conflict) ? std::vector<bool>(near.size(), true) : near;
 }
 
+/// Why a damper cannot be drawn; empty where it can.
+std::string why_undrawable(const DamperDescription& damper) {
+  try {
+    require_possible(damper, "");
+    return {};
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 void add_reached(const DesignProblem& problem, const std::vector<bool>& counted,
                  OptimiseOptions options, Conflict& conflict) {
   options.counted = counted;
@@ -78,8 +88,10 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
   // way.
   const Optimum any = nearest_of(problem, std::vector<bool>(count, false), options, conflict);
   if (any.violation > 0) {
-    const bool drawable = problem.assess(problem.damper_at(any.place)).possible;
+    const DamperDescription nearest = problem.damper_at(any.place);
+    const bool drawable = problem.assess(nearest).possible;
     conflict.undrawable = !conflict.stopped && !drawable;
+    conflict.why_undrawable = why_undrawable(nearest);
     conflict.refused = !conflict.stopped && drawable;
     return conflict;
   }
@@ -105,8 +117,9 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
 std::string describe(const Conflict& conflict, const DesignRequest& request) {
   if (conflict.undrawable)
     return std::string("no damper of these ranges can be ") +
-           (request.share > 0 ? "made within its tolerances" : "drawn") +
-           ": the parts do not fit into each other";
+           (request.share > 0 ? "made within its tolerances" : "drawn") + ": " +
+           (conflict.why_undrawable.empty() ? "the parts do not fit into each other"
+                                            : conflict.why_undrawable);
   if (conflict.refused)
     return "none of the dampers of these ranges that were tried has a force that its models do not "
            "refuse, and goals that have a figure";

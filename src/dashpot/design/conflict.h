@@ -8,7 +8,8 @@ namespace dashpot {
 
 /// Why a request has no design. Figures in SI, in the unit of their constraint's quantity.
 struct Conflict {
-  bool undrawable = false;  ///< no damper of the ranges can be drawn, whatever is asked of it
+  bool undrawable = false;     ///< no damper of the ranges can be drawn, whatever is asked of it
+  std::string why_undrawable;  ///< of the damper nearest to one; empty: its tolerances are why
   /// A model refuses the force of every damper of the ranges that can be drawn, or a goal has no
   /// figure there.
   bool refused = false;
