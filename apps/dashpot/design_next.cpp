@@ -117,6 +117,10 @@ std::vector<Option> next_options(NextSettings& settings) {
 int run_next(const NextSettings& settings, const DesignRequest& request,
              const std::string& model_name, const std::string& folder, std::uint64_t seed,
              int threads, Console& console) {
+  constexpr int kMostDrawings = 200;  // the search grows with the square of them
+  if (settings.count > kMostDrawings)
+    throw UsageError("--next", std::to_string(settings.count) + " is too large",
+                     "at most " + std::to_string(kMostDrawings));
   if (!is_path(model_name))
     throw UsageError("--next", "asks what a fitted family does not know yet",
                      "--model FILE, of a family_physics");

@@ -63,6 +63,11 @@ goals: [{minimise: mass}]
   CHECK(contains(run_dashpot("design --quantities").output, "response_time"));
 }
 
+TEST_CASE("design --next: more drawings than a search can choose from are refused at once") {
+  CHECK(contains(run_dashpot("design passenger_car --next 1000 --model m.json").output,
+                 "--next: 1000 is too large; at most 200"));
+}
+
 TEST_CASE("design by a family and beside the physics: members that 'member' and 'track' take") {
   const TemporaryFolder folder;
   const std::string family = (folder.path() / "family.json").string();
