@@ -147,6 +147,7 @@ TEST_CASE("a fluid that cannot be is refused with its line and what would be rig
        "[[0, 0], [2e4, 1e5], [3.5e4, 2e5]]",
        "the yield stress is 2e+05 Pa at a field of 3.5e+04 A/m, which no MR fluid has");
   says("[20 degC, ", "[20, ", "temperature is 20 K");
+  says("0.2 Pa*s", "0.02 Pa*s", "the viscosity rises from 0.02 to ");
   says("measured:", "My Law:", "names no law");
   says("{points: [[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]}",
        "{polynomial: [100, 0.3, -1e-6], up_to: 300 kA/m}", "the yield stress falls");

@@ -183,6 +183,17 @@ void read_viscosity(const Value& value, Fluid& fluid) {
     usual(viscosity, kViscosity, value);
   for (const auto& [temperature, viscosity] : fluid.viscosities)
     usual(temperature, kTemperature, value);
+
+  // No liquid thickens as it warms: a viscosity that rises stands beside another's temperature.
+  for (std::size_t k = 1; k < fluid.viscosities.size(); ++k) {
+    const auto &cold = fluid.viscosities[k - 1], &warm = fluid.viscosities[k];
+    if (warm.second > cold.second)
+      throw Error(value.where(),
+                  "the viscosity rises from " + format_number(cold.second) + " to " +
+                      format_number(warm.second) + " Pa*s as the temperature grows from " +
+                      format_number(cold.first) + " to " + format_number(warm.first) + " K",
+                  "one that falls or holds");
+  }
 }
 
 }  // namespace
