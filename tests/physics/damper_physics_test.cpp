@@ -124,6 +124,9 @@ TEST_CASE("what cannot be is refused, with what would be right") {
   CHECK(refusal("gap: 8 mm\nbore_diameter: 15 mm\nrod_diameter: 0\npiston_area: 100 mm^2\n"
                 "gap_area: 20 mm^2\n")
             .find("leaves nothing of a bore of 15 mm") != std::string::npos);
+  CHECK(refusal("spring_wire: 5 mm\nspring_radius: 1 mm\n")
+            .find("spring_wire is 5 mm; less than the diameter of the spring's helix, 2 mm") !=
+        std::string::npos);
   CHECK(refusal("steel: \"1010\"\nsaturation: 1 T\n").find("stands beside steel") !=
         std::string::npos);
   CHECK(refusal("steel: \"1010\"\ncircuit: paper\n").find("no B-H curve") != std::string::npos);

@@ -179,6 +179,11 @@ void require_possible(const DamperDescription& d, const std::string& where) {
                     " on either side leaves nothing of a bore of " + millimetres(d.bore_diameter),
                 "a smaller gap or a wider bore");
 
+  if (d.spring_wire >= 2 * d.spring_radius)
+    throw Error(
+        where, "spring_wire is " + millimetres(d.spring_wire),
+        "less than the diameter of the spring's helix, " + millimetres(2 * d.spring_radius));
+
   // The fluid has the law that is asked for, and the equations know a fluid of its kind.
   if (!d.fluid->law(d.yield_law)) {
     std::vector<std::string> known;
