@@ -1,5 +1,6 @@
 #include "dashpot/physics/damper_physics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dashpot/base/text.h"
@@ -149,6 +150,18 @@ TEST_CASE("warnings say what a design should not do") {
   CHECK(all.find("turns") == std::string::npos);
   damper.turns = 150.5;
   CHECK(contains(physics_warnings(damper, p).front(), "turns is 150.5, which no coil has"));
+
+  // Re = 2 rho Q / (w eta), of which Q = A_p v: laminar at 0.3 m/s, hardly at 300 m/s.
+  damper = {};
+  const auto warned = [&](double velocity) {
+    const DamperPhysics at = evaluate_physics(damper, {.current = 1, .velocity = velocity});
+    const std::vector<std::string> warnings = physics_warnings(damper, at);
+    return std::ranges::any_of(warnings,
+                               [](const auto& one) { return contains(one, "Reynolds number"); });
+  };
+  CHECK_FALSE(warned(0.3));
+  CHECK(warned(300));
+  CHECK(warned(-300));
 }
 
 TEST_CASE(

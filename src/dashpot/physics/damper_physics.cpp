@@ -373,6 +373,15 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
     warnings.push_back(
         "the gap is " + format_number(100 * d.gap / diameter, 3) +
         " % of its diameter: plates stand for an annulus to the order of its square only");
+
+  // Between plates, by the hydraulic diameter of 2 h and the mean velocity Q / (w h).
+  constexpr double kMostLaminar = 2000;
+  const double density = 0.5 * (d.fluid->density_min + d.fluid->density_max);
+  const double reynolds = 2 * density * std::abs(p.flow) / (p.gap_width * p.viscosity);
+  if (reynolds > kMostLaminar)
+    warnings.push_back("the Reynolds number in the gap is " + format_number(reynolds, 3) +
+                       ": above about 2000 a flow is no longer laminar, as all figures here take "
+                       "it");
   if (d.viscosity_exponent == 0 && d.fluid->viscosities.size() == 1 &&
       std::abs(d.temperature - 313.15) > 1)
     warnings.push_back(
