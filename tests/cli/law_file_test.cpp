@@ -79,6 +79,12 @@ TEST_CASE("bouc_wen as a file is fitted and ranked beside bouc_wen with the same
   CHECK_FALSE(contains(other, "fits kept from before"));
 }
 
+TEST_CASE("the file of a law is no damper to ride, and is called what it is") {
+  const std::string file = project_file("examples/laws/my_tanh.yaml");
+  CHECK(contains(run_dashpot("simulate --damper " + file).output,
+                 "my_tanh.yaml: is the file of a law, not the model of a damper; a model file"));
+}
+
 TEST_CASE(
     "models LAW.yaml shows a law from a file as it shows any other, and refuses what is none") {
   const std::string file = project_file("examples/laws/my_tanh.yaml");

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "dashpot/base/file.h"
+#include "dashpot/base/file_kind.h"
 #include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
@@ -156,6 +158,15 @@ void require_nothing(Words settings, const std::string& name, const std::string&
                 "motion_ratio=... or force_factor=...");
 }
 
+/// A file of YAML is a law, a drawing or another of Dashpot's, none of which is yet a damper.
+void refuse_unmountable(const std::filesystem::path& path, const std::string& extension) {
+  if (extension != ".yaml" && extension != ".yml") return;
+  const std::string kind = file_kind(parse_yaml(read_file(path), path.string()));
+  if (!kind.empty())
+    throw Error(path.string(), "is " + kind + ", not the model of a damper",
+                "a model file, as 'dashpot identify' and 'dashpot design' write them");
+}
+
 /// A curve, or a model file; a law's parameters may be set as those of a published damper are.
 ChosenDamper from_file(const std::filesystem::path& path, Words settings,
                        const std::string& where) {
@@ -163,6 +174,7 @@ ChosenDamper from_file(const std::filesystem::path& path, Words settings,
   const std::string extension = lower(path.extension().string());
   if (extension != ".json") {
     require_nothing(settings, path.string(), where);
+    refuse_unmountable(path, extension);
     const PassiveCurve curve = load_passive_curve(path.string());
     damper.model = std::make_shared<PassiveCurve>(curve);
     return damper;
