@@ -32,6 +32,11 @@ std::string remark(const ParameterRecovery& p) {
   return join(parts, ", ");
 }
 
+std::string verdict(const LawRecovery& recovery) {
+  if (!recovery.enough()) return "too few to tell";
+  return recovery.trustworthy() ? "trustworthy" : "NOT TRUSTWORTHY";
+}
+
 std::string overview(const std::vector<LawRecovery>& recoveries) {
   std::string text =
       "| law | intervals | hold the truth | fits that failed | time per fit | verdict |\n"
@@ -39,7 +44,7 @@ std::string overview(const std::vector<LawRecovery>& recoveries) {
   for (const LawRecovery& r : recoveries)
     text += fmt::format("| {} | {} | {} | {} | {:.0f} ms | {} |\n", r.law, r.counted(),
                         r.counted() == 0 ? "-" : fmt::format("{:.1f} %", 100 * r.share()), r.failed,
-                        1000 * r.seconds, r.trustworthy() ? "trustworthy" : "NOT TRUSTWORTHY");
+                        1000 * r.seconds, verdict(r));
   return text;
 }
 
@@ -75,11 +80,15 @@ Value to_json(const LawRecovery& recovery) {
                         {"inside", recovery.inside()},
                         {"failed", recovery.failed},
                         {"seconds_per_fit", recovery.seconds},
+                        {"enough", recovery.enough()},
                         {"trustworthy", recovery.trustworthy()},
                         {"parameters", std::move(parameters)}});
 }
 
 int run_study_recovery(RecoveryStudyOptions options, Console& console) {
+  if (options.force_noise == 0 && !options.noisy_motion)
+    throw UsageError("--noise", "is 0, and the motion exact: there is no error to state",
+                     "more than 0, or --noisy-motion");
   options.monitor = console.monitor();
   const std::vector<LawRecovery> recoveries = study_recovery(options);
 
@@ -101,14 +110,20 @@ int run_study_recovery(RecoveryStudyOptions options, Console& console) {
   for (const LawRecovery& recovery : recoveries) list.push_back(to_json(recovery));
   if (console.json) console.print_json(Value::object({{"laws", std::move(list)}}));
 
-  // A law whose intervals are too narrow or too wide fails the study.
-  std::vector<std::string> missed;
+  // A law whose intervals are too narrow or too wide fails the study, and so does one of which
+  // nothing is known.
+  std::vector<std::string> missed, few;
   for (const LawRecovery& recovery : recoveries)
-    if (!recovery.trustworthy()) missed.push_back(recovery.law);
-  if (missed.empty()) return kDone;
-  console.error("fewer than 90 % or more than 99 % of the intervals hold the truth: " +
-                join(missed, ", "));
-  return kNotUsable;
+    if (!recovery.enough())
+      few.push_back(recovery.law);
+    else if (!recovery.trustworthy())
+      missed.push_back(recovery.law);
+  if (!missed.empty())
+    console.error("fewer than 90 % or more than 99 % of the intervals hold the truth: " +
+                  join(missed, ", "));
+  if (!few.empty())
+    console.error("too few intervals to tell: " + join(few, ", ") + "; more --repetitions");
+  return missed.empty() && few.empty() ? kDone : kNotUsable;
 }
 
 std::vector<std::string> law_names() {

@@ -121,6 +121,12 @@ double LawRecovery::share() const {
   return counted() == 0 ? NAN : static_cast<double>(inside()) / counted();
 }
 
+bool LawRecovery::enough() const {
+  constexpr int kLeast = 100;  // of which 90 to 99 hold with odds of 98 in 100 (binomial)
+  const double chance = std::sqrt(0.95 * 0.05 / counted());  // standard deviation of the share
+  return counted() >= kLeast || share() < 0.95 - 3 * chance;
+}
+
 bool LawRecovery::trustworthy() const { return share() >= 0.90 && share() <= 0.99; }
 
 LawModel known_damper(const Law& law) {
@@ -153,9 +159,11 @@ BenchOptions recovery_bench(const RecoveryStudyOptions& options, int repetition)
 }
 
 std::vector<LawRecovery> study_recovery(const RecoveryStudyOptions& options) {
-  // The laws asked for; all where none is named.
+  // The laws asked for, each once; all where none is named.
   std::vector<const Law*> studied;
-  for (const std::string& name : options.laws) studied.push_back(&find_law(name));
+  for (const std::string& name : options.laws)
+    if (const Law* law = &find_law(name); std::ranges::find(studied, law) == studied.end())
+      studied.push_back(law);
   if (studied.empty()) studied.assign(laws().begin(), laws().end());
 
   // Every repetition of every law is a task of its own.

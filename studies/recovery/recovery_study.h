@@ -45,6 +45,9 @@ struct LawRecovery {
   int counted() const;
   int inside() const;
   double share() const;  ///< of intervals that hold the truth; NaN when none was counted
+  /// Whether chance hardly gives this share to intervals that hold 95 %: so many were counted, or
+  /// so few of them hold the truth.
+  bool enough() const;
   /// Within 90 ... 99 %, which an interval that holds 95 % should be.
   bool trustworthy() const;
 };

@@ -63,6 +63,18 @@ TEST_CASE(
   CHECK(contains(run_dashpot(command).output, "kept from before"));
 }
 
+TEST_CASE("study recovery: each law once, and no verdict on few intervals") {
+  const ProgramResult result = run_dashpot("study recovery --laws bingham,bingham --repetitions 2");
+  CHECK(result.exit_code == 3);
+  const std::string row = "| bingham | 10 |";
+  CHECK(contains(result.output, row));
+  CHECK(result.output.find(row) == result.output.rfind(row));
+  CHECK(contains(result.output, "too few to tell"));
+  CHECK(contains(result.output, "too few intervals to tell: bingham; more --repetitions"));
+  CHECK(!contains(result.output, "NOT TRUSTWORTHY"));
+  CHECK(contains(run_dashpot("study recovery --noise 0").output, "there is no error to state"));
+}
+
 TEST_CASE(
     "study family: tables, a page, Markdown and JSON; again from kept trainings; other data is "
     "refused") {
