@@ -64,7 +64,10 @@ DamperDescription described(const PhysicsSettings& settings) {
     const std::size_t equals = change.find('=');
     if (equals == std::string::npos)
       throw UsageError("--set", "'" + change + "' has no value; write gap=0.8mm");
-    const DescriptionField& field = find_description_field(trim(change.substr(0, equals)), "--set");
+    const std::string name(trim(std::string_view(change).substr(0, equals)));
+    if (name == "fluid" || name == "steel")
+      throw UsageError("--set", "'" + name + "' is no number", "--" + name);
+    const DescriptionField& field = find_description_field(name, "--set");
     if (description.steel && (field.field == &DamperDescription::saturation ||
                               field.field == &DamperDescription::permeability))
       throw UsageError("--set",
@@ -127,6 +130,12 @@ std::string rest_warning(const DamperDescription& description, const DamperPhysi
   return "at rest nothing flows: the forces are those of a spring, if there is one, and not the " +
          format_number(physics.piston_area * physics.yield_pressure + description.friction) +
          " N up to which the damper holds";
+}
+
+/// Where no piston can be: mostly a number of millimetres.
+std::string stroke_warning(const DamperDescription& description, double displacement) {
+  return "a displacement of " + format_number(displacement) + " m is beyond the stroke, " +
+         format_number(description.stroke) + " m from end to end";
 }
 
 Value quantities_json(const DamperPhysics& physics) {
@@ -242,6 +251,8 @@ int run_physics(const PhysicsSettings& settings, Console& console) {
   const DamperPhysics physics = evaluate_physics(description, operation);
   std::vector<std::string> warnings = physics_warnings(description, physics);
   if (operation.velocity == 0) warnings.push_back(rest_warning(description, physics));
+  if (std::abs(operation.displacement) > description.stroke)
+    warnings.push_back(stroke_warning(description, operation.displacement));
   const std::vector<KnownWithin> known = force_uncertainty(description, operation);
 
   // Warnings are part of the JSON; on a terminal they follow the table.
@@ -328,7 +339,9 @@ Command physics_command() {
                            "friction and compliance differ from the drawing's, and how well "
                            "they are known",
                    .value = "DATA",
-                   .takes = Takes::File},
+                   .takes = Takes::File,
+                   .idles = {{{"--current", "--velocity", "--displacement"},
+                              ", which have currents and motions of their own"}}},
                   {.names = "-o,--output",
                    .target = &settings->output,
                    .help = "write the calibrated drawing, its fluid in it",

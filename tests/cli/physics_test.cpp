@@ -34,6 +34,11 @@ TEST_CASE("physics: fields can be changed, listed, and are refused with their na
   const ProgramResult twice = run_dashpot("physics passenger_car --set gap=2mm,turns=90,gap=1mm");
   CHECK(twice.exit_code == 2);
   CHECK(contains(twice.output, "--set: gap is stated twice; one value of each name"));
+  CHECK(contains(run_dashpot("physics passenger_car --set fluid=122EG").output,
+                 "--set: 'fluid' is no number; --fluid"));
+  CHECK(contains(run_dashpot("physics passenger_car --displacement 20").output,
+                 "a displacement of 20 m is beyond the stroke, 0.15 m from end to end"));
+  CHECK(!contains(run_dashpot("physics passenger_car --displacement 20mm").output, "stroke"));
   CHECK(run_dashpot("physics no_such.yaml").exit_code == 1);
   CHECK(run_dashpot("physics").exit_code == 2);
 }
