@@ -197,9 +197,16 @@ int run_words(const std::vector<std::string>& words, Console& console) {
 
 /// The command line that explains what went wrong on this one.
 std::string help_for(const std::vector<std::string>& words) {
-  const bool known = std::ranges::any_of(all_commands(),
-                                         [&](const Command& c) { return c.name == words.front(); });
-  return known ? "dashpot " + words.front() + " --help" : "dashpot --help";
+  std::vector<Command> commands = all_commands();
+  std::string name, called;
+  for (const std::string& word : words) {
+    name += (name.empty() ? "" : " ") + word;
+    const auto command = std::ranges::find(commands, name, &Command::name);
+    if (command == commands.end()) break;
+    called += ' ' + word;
+    commands = std::vector<Command>(command->subcommands);
+  }
+  return "dashpot" + called + " --help";
 }
 
 /// What went wrong, told by rank 0 also where it went wrong in another process of mpirun.

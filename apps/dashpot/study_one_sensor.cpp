@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <ranges>
 
 #include <fmt/core.h>
 
@@ -46,6 +47,10 @@ std::vector<std::string> row_names() {
 }
 
 int run_study_one_sensor(const StudyOneSensorSettings& settings, Console& console) {
+  constexpr int kMostNeurons = 1000;  // each number up to it is trained by itself
+  if (settings.most_neurons > kMostNeurons)
+    throw UsageError("--neurons", std::to_string(settings.most_neurons) + " is too large",
+                     "at most " + std::to_string(kMostNeurons));
   prepare_study(settings.results);
 
   OneSensorOptions options = settings.options;
@@ -83,12 +88,16 @@ Command one_sensor_study() {
       .example = std::string(kStudyOneSensorExample),
       .run = [settings](Console& console) { return run_study_one_sensor(*settings, console); }};
 
-  // Recordings are optional: the study has dampers of its own.
+  // Recordings are optional: the study has dampers of its own, which need no words.
+  const std::string recordings = command.options.front().long_name();
   command.options.front().required = false;
   command.options.front().default_text = "two virtual dampers";
+  for (Option& option : command.options | std::views::drop(1)) option.needs = recordings;
+  Option leave_out = leave_out_option(settings->leave_out);
+  leave_out.needs = recordings;
 
   append(command.options, study_result_options(settings->results, "fits"));
-  append(command.options, {leave_out_option(settings->leave_out),
+  append(command.options, {leave_out,
                            {.names = "--models",
                             .target = &settings->options.keys,
                             .help = "rows to fit, separated by commas",

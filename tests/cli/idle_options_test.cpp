@@ -17,6 +17,8 @@ TEST_CASE("options that serve another one are refused without it" * doctest::tes
        "--points: has no effect with --next, which searches for no designs; leave one of them out"},
       {"physics passenger_car --recordings " + data + " --velocity 2",
        "--velocity: has no effect with --recordings, which have currents and motions of their own"},
+      {"study one-sensor --dataset d.yaml", "--dataset: has no effect without DATA; give both"},
+      {"study one-sensor --leave-out nothing", "--leave-out: has no effect without DATA"},
       {"bench --duration 10", "--duration: has no effect without --in"},
       {"bench --in car.yaml --cycles 4", "--cycles: has no effect with --in: a plant is moved by"},
       {"bench --in car.yaml --motion AM", "--motion: has no effect with --in: a plant is moved by"},

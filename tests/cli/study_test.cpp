@@ -75,6 +75,14 @@ TEST_CASE("study recovery: each law once, and no verdict on few intervals") {
   CHECK(contains(run_dashpot("study recovery --noise 0").output, "there is no error to state"));
 }
 
+TEST_CASE("studies: what no study can end is refused, with the study's own help") {
+  const ProgramResult large = run_dashpot("study one-sensor --neurons 1000000000");
+  CHECK(large.exit_code == 2);
+  CHECK(contains(large.output, "--neurons: 1000000000 is too large; at most 1000"));
+  CHECK(contains(large.output, "'dashpot study one-sensor --help' explains."));
+  CHECK(contains(run_dashpot("study two-sensors").output, "'dashpot study --help' explains."));
+}
+
 TEST_CASE(
     "study family: tables, a page, Markdown and JSON; again from kept trainings; other data is "
     "refused") {
