@@ -49,6 +49,18 @@ const DocumentTable& table_of(const Document& document, const std::string& secti
 
 }  // namespace
 
+TEST_CASE("a sweep's page names what its vehicles stand on") {
+  Sweep sweep = example_sweep();
+  sweep.foot = "seat";
+  sweep.rides[0][5].contact_lost = 0.1;
+  const Document document = sweep_document(sweep);
+  for (const char* part :
+       {"seat load index 2 (less on 0 %", "passive: a seat loses contact on 1 of 202 rides"})
+    CHECK_MESSAGE(document.verdict.find(part) != std::string::npos, document.verdict);
+  CHECK(html_document(document).find("yre") == std::string::npos);
+  CHECK(table_of(document, "ratios").rows[3][0] == "Seat load index");
+}
+
 TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what not to trust") {
   const Document document = sweep_document(example_sweep());
   for (const char* part : {"202 vehicles, 2 controllers",

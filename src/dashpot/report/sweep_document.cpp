@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ std::string against_baseline(const Sweep& sweep, std::size_t c) {
     if (ratios.empty()) continue;
     const auto less = std::ranges::lower_bound(ratios, 1.0) - ratios.begin();
     parts.push_back(fmt::format(
-        "{} {} (less on {} % of the vehicles)", lower(shown.measure->title),
+        "{} {} (less on {} % of the vehicles)", lower(shown.name),
         number_text(quantile_of(ratios, 0.5).value),
         number_text(100 * static_cast<double>(less) / static_cast<double>(ratios.size()))));
   }
@@ -45,8 +46,8 @@ std::vector<std::string> cautions(const Sweep& sweep, std::size_t c) {
   const auto lifted = std::ranges::count_if(
       sweep.rides[c], [](const RideMeasures& ride) { return ride.contact_lost > 0; });
   if (lifted > 0)
-    lines.push_back(fmt::format("{}: a tyre loses contact on {} of {} rides.", name, lifted,
-                                sweep.rides[c].size()));
+    lines.push_back(fmt::format("{}: a {} loses contact on {} of {} rides.", name, sweep.foot,
+                                lifted, sweep.rides[c].size()));
   return lines;
 }
 
@@ -88,9 +89,7 @@ DocumentSection note_section(const Sweep& sweep) {
 
 }  // namespace
 
-std::string ShownMeasure::title() const {
-  return std::string(measure->title) + (unit == "1" ? "" : " (" + unit + ")");
-}
+std::string ShownMeasure::title() const { return name + (unit == "1" ? "" : " (" + unit + ")"); }
 
 std::string ShownMeasure::text(double value) const { return number_text(factor * value); }
 
@@ -106,16 +105,23 @@ std::vector<ShownMeasure> shown_measures(const Sweep& sweep) {
         });
     if (!is_there) continue;
 
+    // A seat is no tyre.
+    std::string name(m.title);
+    if (m.field == &RideMeasures::tyre_load_index && sweep.foot != "tyre") {
+      name = sweep.foot + " load index";
+      name.front() = static_cast<char>(std::toupper(name.front()));
+    }
+
     // Shares are read in percent, lengths in millimetres.
     const bool is_share = m.field == &RideMeasures::contact_lost ||
                           m.field == &RideMeasures::stops_met ||
                           m.field == &RideMeasures::outside_data;
     if (is_share)
-      shown.push_back({&m, "%", 100});
+      shown.push_back({&m, std::move(name), "%", 100});
     else if (m.unit == "m")
-      shown.push_back({&m, "mm", 1000});
+      shown.push_back({&m, std::move(name), "mm", 1000});
     else
-      shown.push_back({&m, std::string(m.unit), 1});
+      shown.push_back({&m, std::move(name), std::string(m.unit), 1});
   }
   return shown;
 }

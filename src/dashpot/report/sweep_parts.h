@@ -12,6 +12,7 @@ namespace dashpot {
 /// A measure as people read it: shares in %, travel in mm.
 struct ShownMeasure {
   const SweepMeasure* measure;
+  std::string name;  ///< "Travel"; its title, with what the vehicle stands on: "Seat load index"
   std::string unit;
   double factor = 1;
 

@@ -126,7 +126,7 @@ DocumentTable correlation_table(const Sweep& sweep, std::size_t c,
   DocumentTable table{sweep.request.controllers[c].name, {{"Input"}}, {}};
   int priority = 0;
   for (const ShownMeasure& shown : measures)
-    table.columns.push_back({std::string(shown.measure->title), true, priority++});
+    table.columns.push_back({shown.name, true, priority++});
 
   // Inputs by their weight, strongest first.
   for (const Weight& weight : weights) {
@@ -210,8 +210,8 @@ DocumentSection ratio_section(const Sweep& sweep) {
 
   // A row and a curve for each measure and controller.
   for (const ShownMeasure& measure : shown_measures(sweep)) {
-    const ShownMeasure shown{measure.measure, "1"};
-    FigurePanel panel{std::string(shown.measure->title), "ratio", "share of the vehicles (%)", {}};
+    const ShownMeasure shown{measure.measure, measure.name, "1"};
+    FigurePanel panel{shown.name, "ratio", "share of the vehicles (%)", {}};
     for (std::size_t c = 0; c < sweep.rides.size(); ++c) {
       if (c == request.baseline) continue;
       const std::string& name = request.controllers[c].name;
@@ -219,7 +219,7 @@ DocumentSection ratio_section(const Sweep& sweep) {
       const auto spread = spread_of(ratios);
       if (!spread) continue;
       const auto less = static_cast<double>(std::ranges::lower_bound(ratios, 1.0) - ratios.begin());
-      table.rows.push_back(quantile_row(std::string(shown.measure->title), name, *spread, shown));
+      table.rows.push_back(quantile_row(shown.name, name, *spread, shown));
       // There is no ratio to a measure that is 0, as the time without contact.
       const std::size_t all = sweep.rides[c].size();
       table.rows.back().push_back(
@@ -250,8 +250,7 @@ DocumentSection quantile_section(const Sweep& sweep) {
 
   // A row and a curve for each measure and controller.
   for (const ShownMeasure& shown : shown_measures(sweep)) {
-    FigurePanel panel{
-        std::string(shown.measure->title), shown.title(), "share of the vehicles (%)", {}};
+    FigurePanel panel{shown.name, shown.title(), "share of the vehicles (%)", {}};
     for (std::size_t c = 0; c < sweep.rides.size(); ++c) {
       const std::string& name = sweep.request.controllers[c].name;
       const std::vector<double> values = measure_values(sweep, c, *shown.measure);

@@ -81,6 +81,18 @@ TEST_CASE("a sweep tells what drives its dampers, where that is one thing") {
   CHECK(drive("mr1", "mr1") == DriveUnit::Ampere);
 }
 
+TEST_CASE("a sweep tells what its vehicles stand on") {
+  const TemporaryFolder folder;
+  CHECK(run(example(1), folder.path() / "car.sqlite").foot == "tyre");
+  const SweepRequest seated = parse_sweep(
+      "plant: seated_driver\nroad: \"iso8608_fft,class=C\"\nduration: 1 s\ndiscard: 0.2 "
+      "s\nsamples: 1\n"
+      "controllers: {passive: {dampers: \"viscous,damping=400\"}}\n"
+      "vary: {thigh_mass: {uniform: [10 kg, 15 kg]}}\n",
+      "test.yaml");
+  CHECK(run(seated, folder.path() / "seat.sqlite").foot == "seat");
+}
+
 TEST_CASE("a sweep's measures are those of simulate() and of the ride's own functions") {
   const TemporaryFolder folder;
   const SweepRequest request = example(3);

@@ -8,6 +8,7 @@
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/lanes/batch.h"
 #include "dashpot/suspension/ride/ride_measures.h"
+#include "dashpot/suspension/trace.h"
 
 namespace dashpot {
 namespace {
@@ -52,6 +53,11 @@ std::optional<DriveUnit> SweepRider::drive() const {
     drive = vehicle.drive_unit;
   }
   return drive.value_or(DriveUnit::Ampere);
+}
+
+std::string SweepRider::foot() const {
+  const Plant& plant = examples_.front().set.plant;
+  return plant.tyres.empty() ? std::string() : foot_of(plant);
 }
 
 /// Dampers that all vehicles have in common are shared: their models are large, and finding their

@@ -27,6 +27,8 @@ class SweepRider {
   const std::vector<std::string>& notes() const { return notes_; }
   /// What drives the dampers; none: the controllers' differ. A where nothing does.
   std::optional<DriveUnit> drive() const;
+  /// What the vehicle stands on, as foot_of(): "tyre", "seat"; empty of a building.
+  std::string foot() const;
 
  private:
   Vehicle make(const Task& task, const SweepDraw& draw) const;

@@ -82,6 +82,7 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
   const SweepRider rider(request);
   result.notes = rider.notes();
   result.drive = rider.drive();
+  result.foot = rider.foot();
 
   // Take over the rides that are kept.
   result.rides.assign(controllers, std::vector<RideMeasures>(vehicles));

@@ -24,6 +24,7 @@ struct Sweep {
   std::vector<std::vector<RideMeasures>> rides;  ///< by controller, then by vehicle
   /// What `current` is of: what drives the dampers; none: the controllers' differ.
   std::optional<DriveUnit> drive = DriveUnit::Ampere;
+  std::string foot = "tyre";       ///< what the vehicle stands on, as foot_of()
   std::vector<std::string> notes;  ///< "the numbers of ... are an example: ..."
   std::size_t kept = 0;            ///< rides that were in the store before
   double wall_seconds = 0;
