@@ -130,6 +130,14 @@ std::vector<std::size_t> shown_frequencies(const std::vector<double>& f) {
   return shown;
 }
 
+/// Whose gains these are, where that is one of several.
+std::vector<std::string> gain_remarks(const Plant& plant) {
+  if (plant.tyres.size() < 2) return {};
+  return {"These gains are those of " + plant.tyres.front().name + " and of the strut " +
+          plant.struts.front().name +
+          " alone; what the others do may be worse. The table of the road has the worst of all."};
+}
+
 DocumentTable gain_table(const RideStudy& study) {
   const Plant& plant = study.plant();
   const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name;
@@ -369,7 +377,7 @@ Document ride_document(const RideStudy& study) {
                                .paragraphs = {},
                                .tables = {gain_table(study), limit_table(study)},
                                .figures = {gain_figure(study), chirp_figure(study)},
-                               .remarks = {}});
+                               .remarks = gain_remarks(study.plant())});
   document.sections.push_back({.name = "step",
                                .title = "A step of the road",
                                .paragraphs = {},

@@ -98,6 +98,17 @@ TEST_CASE("the page of a ride has a section each for road, frequency and step") 
   CHECK(page.verdict.find("mix1: ") != std::string::npos);
 }
 
+TEST_CASE("gains of a vehicle with several tyres say whose they are") {
+  RideStudyOptions options = small_study();
+  options.controllers = {"mix1"};
+  options.frequencies = {8};
+  CHECK(ride_document(study_ride(options)).sections[1].remarks.empty());
+  options.vehicle = {.plant = "half_car_a", .dampers = {"ideal,damping_min=300,damping_max=3900"}};
+  const Document page = ride_document(study_ride(options));
+  REQUIRE(page.sections[1].remarks.size() == 1);
+  CHECK(contains(page.sections[1].remarks[0], "those of front_tyre and of the strut front alone"));
+}
+
 TEST_CASE("a ride on a seat is told of the seat and of who sits on it") {
   RideStudyOptions options = small_study();
   options.vehicle = {.plant = "boileau_rakheja1998", .dampers = {"spencer1997"}};
