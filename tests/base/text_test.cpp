@@ -22,6 +22,7 @@ TEST_CASE("exact text reads back as the same double") {
     CHECK(*parse_number(format_exact(x)) == x);
   CHECK(format_number(0.0045123) == "0.004512");
   CHECK(format_number(3.63e6, 3) == "3.63e+06");
+  CHECK(format_number(-0.0) == "0");
 }
 
 TEST_CASE("plain text has no exponent up to a million") {

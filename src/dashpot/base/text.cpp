@@ -44,8 +44,9 @@ std::string format_exact(double value) {
 
 std::string format_number(double value, int digits) {
   std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                    std::chars_format::general, digits);
+  const double without_minus_zero = value + 0.0;
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(),
+                                    without_minus_zero, std::chars_format::general, digits);
   return {buffer.data(), result.ptr};
 }
 
