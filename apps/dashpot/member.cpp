@@ -217,6 +217,9 @@ int run_member(const MemberSettings& settings, Console& console) {
   std::shared_ptr<const FamilyModel> member =
       asked->with_member(member_asked_for(settings, family->member(), largest, console));
 
+  if (member->member().build != 0 && family->family().build_spread == 0)
+    console.warn("build=" + format_number(member->member().build) + " counts for nothing: " +
+                 family->name() + " does not know how builds of a drawing differ");
   const std::vector<std::string> outside = member->extrapolations();
   console.print(table_of(*member, console.width()));
   for (const std::string& what : outside) console.warn(what + ": it extrapolates there");

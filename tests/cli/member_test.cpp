@@ -22,6 +22,8 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
 
   CHECK(contains(run_dashpot("member " + family + " --set gap=9mm").output, "extrapolates"));
   CHECK(run_dashpot("member " + family + " --set gap=9mm --outside-family refuse").exit_code == 1);
+  CHECK(contains(run_dashpot("member " + family + " --set build=9").output,
+                 "warning: build is 9 standard deviations"));
   CHECK(contains(run_dashpot("member " + family + " --set gape=9mm").output, "did you mean 'gap'"));
   CHECK(contains(run_dashpot("member " + family + " --set yield_stress=20kPa").output,
                  "the same at any current"));

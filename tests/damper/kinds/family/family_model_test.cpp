@@ -65,6 +65,16 @@ TEST_CASE("a build one standard deviation strong is stronger by the family's spr
   CHECK_CLOSE(model.spread(input, state), 0.1 * std::abs(mean), 1e-13, 0);
 }
 
+TEST_CASE("a build that not one in a hundred would be is marked") {
+  const FamilyModel model = example_family();
+  CHECK(model.specialised({{"build", -2.5}})->extrapolations().empty());
+  CHECK(model.specialised({{"build", -9}})->extrapolations() ==
+        std::vector<std::string>{"build is -9 standard deviations, not one build in a hundred "
+                                 "lies beyond 2.58"});
+  const auto refuses = model.with_outside(OutsideFamily::Refuse);
+  CHECK(contains(message_of([&] { refuses->specialised({{"build", 9}}); }), "build is 9"));
+}
+
 TEST_CASE("a member outside the family is marked, or refused where that is asked") {
   const FamilyModel marks = example_family();
   const Conditions far{{"gap", 5e-3}};

@@ -160,6 +160,13 @@ std::vector<std::string> FamilyModel::extrapolations() const {
       if (field.field == range.field) add(field.name, field.unit, value, range);
   }
   if (yield_excess() > 0) add(kYieldStress, "Pa", member_.yield.greatest(), *family_->yield);
+
+  // A build has no range but that of chance.
+  constexpr double kOneInHundred = 2.58;  // standard deviations, to either side
+  if (std::abs(member_.build) > kOneInHundred)
+    outside.push_back("build is " + format_number(member_.build) +
+                      " standard deviations, not one build in a hundred lies beyond " +
+                      format_number(kOneInHundred));
   return outside;
 }
 
