@@ -35,6 +35,14 @@ TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") 
   CHECK_FALSE(is_law("mlp_one_sensor"));
 }
 
+TEST_CASE("titles are names, which may stand anywhere in a sentence") {
+  for (const std::string& name : model_names()) {
+    const std::string title(model_info(name).title);
+    CHECK_MESSAGE(!title.starts_with("The "), title);
+    CHECK_MESSAGE(!title.starts_with("A "), title);
+  }
+}
+
 TEST_CASE("the one-sensor paper's networks") {
   // 41, 51 and, recurrent, 61 parameters: TC-12c
   const auto parameters = [](const NarxPreset& p) {

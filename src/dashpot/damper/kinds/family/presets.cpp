@@ -44,27 +44,27 @@ std::array<FamilyPreset, 6> make_presets() {
        .velocity_lags = 5},
 
       paper_network({.name = "family_h3x15",
-                     .title = "The family paper's network, F_Ty",
+                     .title = "Network of the family paper, F_Ty",
                      .equation = "F = k x + F_eta(v) + net(A_p, A_g, h, L, eta, T_y, v, x)",
                      .remarks = "the authors' notebook standardises nothing.",
                      .target = FamilyTarget::YieldForce}),
 
       paper_network(
           {.name = "family_h3x15_residual",
-           .title = "The family paper's network, beside the plate flow",
+           .title = "Network of the family paper, beside the plate flow",
            .equation = "F = k x + c F_plate(v, T_y) tanh(v / v_s) + net(A_p, A_g, h, L, eta, T_y, "
                        "v, x)",
            .remarks = "the share of the plate flow's force is fitted first.",
            .target = FamilyTarget::Residual}),
 
       paper_network({.name = "family_h3x15_total",
-                     .title = "The family paper's network, total force",
+                     .title = "Network of the family paper, total force",
                      .equation = "F = net(A_p, A_g, h, L, eta, T_y, v, x)",
                      .remarks = "the whole force, as the authors' notebook trains it.",
                      .target = FamilyTarget::Total}),
 
       {.name = "family_line",
-       .title = "The simplest family: a size and a phase that are lines",
+       .title = "Line family (size and phase)",
        .equation = "F = A (cos p v + sin p w x') / r + F_0,  x' = x - x_0,\n"
                    "r^2 = max(2 (q^2 + (v - q)^2), (v^2 + (w x')^2) / 2) + s^2,  q' = w (v - q),\n"
                    "ln A and p: a line in i, i^2, ln eta, ln L, ln h, or in T_y, ln L, ln h",
