@@ -100,6 +100,11 @@ class WrongUse(unittest.TestCase):
 
 
 class Keeping(InFolder):
+    def test_a_model_is_not_made_by_itself(self):
+        for make in (dashpot.DamperModel, lambda: dashpot.DamperModel.__new__(dashpot.DamperModel)):
+            with self.assertRaisesRegex(TypeError, "load"):
+                make()
+
     def test_files_pickles_and_copies_are_the_same_model(self):
         model = dashpot.published("spencer1997")
         path = Path(self.folder) / "model.json"

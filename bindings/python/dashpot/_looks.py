@@ -11,6 +11,11 @@ from ._arrays import as_json
 from ._recordings import Recordings, as_recordings
 
 
+def from_json(text: str) -> _core.DamperModel:
+    """What a pickled DamperModel calls."""
+    return _core.DamperModel.from_json(text)
+
+
 def parameters(model: _core.DamperModel) -> dict:
     """What stands behind DamperModel.parameters."""
     rows = json.loads(model._parameters())["parameters"]

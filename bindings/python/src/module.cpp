@@ -134,13 +134,24 @@ py::dict domain(const Model& model) {
   return ranges;
 }
 
+/// An object that __new__ made would own nothing: such a class has no __new__ of its own.
+void only_made_by_dashpot(PyHeapTypeObject* type) {
+  type->ht_type.tp_new = [](PyTypeObject* asked, PyObject*, PyObject*) -> PyObject* {
+    PyErr_Format(PyExc_TypeError,
+                 "%s is not made by itself; load(), published(), identify() ... make one",
+                 asked->tp_name);
+    return nullptr;
+  };
+}
+
 void bind_model(py::module_& module) {
   using py::arg;
   const py::object none = py::none();
   py::class_<Model>(module, "DamperModel",
                     "A damper model: motion and current in, force out. It never changes.\n\n"
                     "SI units; extension positive; the force positive when it resists extension.\n"
-                    "Made by load(), published(), identify() or Identifier.fit().")
+                    "Made by load(), published(), identify() or Identifier.fit().",
+                    py::custom_type_setup(only_made_by_dashpot))
       .def_static(
           "load", [](const std::filesystem::path& path) { return Model::load(path.string()); },
           arg("path"), "The model of a file that save() or `dashpot identify` wrote.")
@@ -281,8 +292,10 @@ void bind_model(py::module_& module) {
                     model.info().kind + ", " + std::to_string(model.info().parameter_count) +
                     " parameters>";
            })
-      .def(py::pickle([](const Model& model) { return model.text(); },
-                      [](const std::string& text) { return Model::parse(text); }));
+      .def("__reduce__", [](const Model& model) {
+        return py::make_tuple(py::module_::import("dashpot._looks").attr("from_json"),
+                              py::make_tuple(model.text()));
+      });
 }
 
 }  // namespace
@@ -297,7 +310,7 @@ PYBIND11_MODULE(_core, module) {
   exceptions = {error, not_usable};
 
   bind_model(module);
-  py::class_<Recordings>(module, "_Recordings")
+  py::class_<Recordings>(module, "_Recordings", py::custom_type_setup(only_made_by_dashpot))
       .def_static("load", &Recordings::load)
       .def_static("empty", &Recordings::empty)
       .def("__len__", &Recordings::count)
@@ -305,7 +318,7 @@ PYBIND11_MODULE(_core, module) {
       .def("describe", &Recordings::describe)
       .def("unread", &Recordings::unread)
       .def("record", &Recordings::record);
-  py::class_<Ranking>(module, "_Ranking")
+  py::class_<Ranking>(module, "_Ranking", py::custom_type_setup(only_made_by_dashpot))
       .def("__len__", &Ranking::count)
       .def("model", &Ranking::model)
       .def("report", &Ranking::report);
