@@ -104,6 +104,24 @@ TEST_CASE("evaluate in a plant: the truth leaves the sensors' noise, wherever it
   CHECK(run.channel("x_modelled").samples.size() == whole.samples);
 }
 
+TEST_CASE("evaluate in a plant: a sensor that counts the other way round is told") {
+  const InPlantSetup setup = judged_setup(kJudgedMass);
+  const LawModel truth = load_parameters("spencer1997");
+  PlantRecording ride = as_recording(
+      virtual_campaign(setup, truth, {.duration = 4, .levels = {0.5}, .push = 500}).front());
+  for (Channel& channel : ride.channels)
+    if (channel.name == "x")
+      for (double& sample : channel.samples) sample = -sample;
+  const PlantEvaluation told = evaluate_in_plant({as_damper(truth)}, setup, {ride}, {});
+  REQUIRE(!told.warnings.empty());
+  CHECK(contains(told.warnings.front(), "x: shows -1 times what the model does"));
+
+  // What is too short to be judged was never to be fitted.
+  CHECK(contains(
+      message_of([&] { evaluate_in_plant({as_damper(truth)}, setup, {part_of(ride, 0, 50)}, {}); }),
+      "has 50 samples; at least 200"));
+}
+
 TEST_CASE("evaluate in a plant: another mass, another law and a narrow range are told") {
   InPlantSetup setup = judged_setup(kJudgedMass);
   const LawModel truth = load_parameters("spencer1997");

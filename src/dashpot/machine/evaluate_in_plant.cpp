@@ -1,7 +1,9 @@
 #include "dashpot/machine/evaluate_in_plant.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -12,6 +14,7 @@
 #include "dashpot/machine/plant_residuals.h"
 #include "dashpot/machine/plant_step.h"
 #include "dashpot/machine/road_follower.h"
+#include "dashpot/machine/sensor_doubts.h"
 
 namespace dashpot {
 namespace {
@@ -105,11 +108,14 @@ PlantEvaluation evaluate_in_plant(ObservedDampers dampers, const InPlantSetup& s
   for (const SensorFigures& figure : told.sensors)
     if (!std::isfinite(figure.training))
       told.warnings.push_back(figure.recording + ": the plant diverges (" + figure.channel + ")");
-  if (told.warnings.empty() && told.step_error > kMuch)
+  if (!told.warnings.empty()) return told;
+  told.warnings = sensor_doubts(setup, told.sensors, told.traces);
+  if (told.step_error > kMuch)
     told.warnings.push_back("half the integrator's step changes a sensor by " +
                             format_number(100 * told.step_error, 2) + " % of its error");
-  if (told.warnings.empty())
-    told.warnings = beyond_models(dampers, setup, motions_of(told.traces, dampers.size()));
+  else
+    std::ranges::move(beyond_models(dampers, setup, motions_of(told.traces, dampers.size())),
+                      std::back_inserter(told.warnings));
   return told;
 }
 

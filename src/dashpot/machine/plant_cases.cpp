@@ -45,7 +45,9 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
     one.training =
         static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
     if (one.training < one.first + kFewest)
-      throw Error(recording.name, "leaves " + std::to_string(one.training) + " samples to fit",
+      throw Error(recording.name,
+                  (setup.held_back > 0 ? "leaves " : "has ") + std::to_string(one.training) +
+                      (setup.held_back > 0 ? " samples to fit" : " samples"),
                   "at least " + std::to_string(kFewest) + " behind " +
                       (skip > setup.skip ? "the " + format_number(skip, 3) +
                                                " s in which sensors' filters forget what was before"

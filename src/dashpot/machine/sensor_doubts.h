@@ -7,10 +7,11 @@
 
 namespace dashpot {
 
-/// What speaks against sensors after a fit in free run, a sentence each: where one flaw of the
-/// sensor, the same in all recordings, would explain most of what is left there (it counts in
-/// another unit or the other way round, comes late or early, drifts), else where a sensor is
-/// further from the model than from no motion at all. `figures` are those of the traces.
+/// What speaks against sensors after a free run, of a fit or of known numbers, a sentence each:
+/// where one flaw of the sensor, the same in all recordings, would explain most of what is left
+/// there (it counts in another unit or the other way round, comes late or early, drifts), else
+/// where a sensor is further from the model than from no motion at all. `figures` are those of the
+/// traces.
 std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
                                        const std::vector<SensorFigures>& figures,
                                        const std::vector<InPlantTrace>& traces);
