@@ -109,8 +109,11 @@ DocumentTable chart_table(const Watched& watched) {
                       .rows = {}};
   for (const WatchedQuantity& q : watched.quantities) {
     const ChartPoint& last = q.chart.points.back();
-    table.rows.push_back({q.name + ", " + amount_unit(q), amount_text(q, last.expected),
-                          amount_text(q, last.scatter, 2), format_number(last.sum, 3),
+    const bool is_learnt = last.scatter > 0;
+    table.rows.push_back({q.name + ", " + amount_unit(q),
+                          is_learnt ? amount_text(q, last.expected) : "-",
+                          is_learnt ? amount_text(q, last.scatter, 2) : "-",
+                          is_learnt ? format_number(last.sum, 3) : "-",
                           format_number(q.chart.threshold, 3), state_of(watched, q)});
     table.warnings.push_back(q.chart.alarm.has_value());
   }

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/model_file.h"
@@ -56,6 +58,14 @@ TEST_CASE("watch: days teach, a state keeps them, and a weaker damper raises the
   CHECK(std::abs(day.find("amounts")->find("force")->find("value")->as_number()) < 0.05);
   CHECK(std::abs(day.find("plant")->find("mass")->as_number() - 103) < 3);
   CHECK(contains(read_file(out + "/report.html"), "watched from day to day"));
+
+  // Nothing is expected before a day is judged.
+  const std::string begun = run_dashpot("watch " + model + " --in " + plant + ' ' + healthy +
+                                        "/day_1.csv --tracked force --output " + out + "_begun")
+                                .output;
+  const std::string row = begun.substr(std::min(begun.find("\nforce, %"), begun.size()));
+  CHECK_MESSAGE(contains(row.substr(0, row.find("learns")), "-                -    -"), begun);
+
   CHECK(contains(read_file(out + "/report.csv"), "day,force,force_deviation"));
   CHECK(contains(read_file(out + "/report.csv"), ",mass [kg],remark"));
   CHECK(contains(read_file(out + "/report.md"), "mass, kg"));
