@@ -2,6 +2,7 @@
 
 #include "dashpot/base/date.h"
 #include "dashpot/base/escape.h"
+#include "dashpot/base/text.h"
 #include "dashpot/export/js/js.h"
 #include "dashpot/identify/judge/traces.h"
 #include "dashpot/identify/rank/model_choice.h"
@@ -57,8 +58,10 @@ void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* moni
          dashpot_model** model, char** report) {
   const std::vector<std::string> names = choose_models(options.words.models, dataset.records).names;
   if (names.size() != 1)
-    throw Error("options, models", "are " + std::to_string(names.size()) + " models",
-                "one; dashpot_identify compares several");
+    throw Error(
+        "options, models",
+        "'" + join(options.words.models, ", ") + "' is " + std::to_string(names.size()) + " models",
+        "one; dashpot_identify compares several");
 
   // The fit runs beside the caller's thread, which may cancel it.
   options.words.options = identify_options(options.words, names, "options, ");

@@ -222,7 +222,7 @@ struct WatchHistory {
 WatchHistory history_of(const std::optional<Value>& state, const Value& basis) {
   WatchHistory history;
   if (!state) return history;
-  ObjectReader reader(*state, "options, state");
+  ObjectReader reader(*state, "the JSON");
   const Value& stated = reader.required("basis");
   for (const auto& [name, now] : basis.members()) {
     const Value* then = stated.find(name);

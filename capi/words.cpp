@@ -49,7 +49,7 @@ int whole_int(ObjectReader& reader, std::string_view key, int fallback, int leas
 
 FitOptions read_fit_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   FitOptions out;
 
   // The words are those of the command line, so that both mean the same.
@@ -90,7 +90,7 @@ FitOptions read_fit_options(const char* text) {
 
 LoadOptions read_load_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   LoadOptions options;
   options.dataset_file = reader.string("dataset", "");
   options.recognise = reader.boolean("recognise", options.recognise);
@@ -103,7 +103,7 @@ LoadOptions read_load_options(const char* text) {
 
 LookOptions read_look_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   LookOptions options;
   if (const Value* speeds = reader.optional("speeds")) options.speeds = speeds->as_numbers();
   options.format = reader.string("format", options.format);
@@ -118,7 +118,7 @@ LookOptions read_look_options(const char* text) {
 
 EvaluateWords read_evaluate_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   EvaluateWords out;
   EvaluateOptions& options = out.options;
   options.offset = offset_mode(reader.string("force_offset", "record"), "options, force_offset");
@@ -130,7 +130,7 @@ EvaluateWords read_evaluate_options(const char* text) {
 
 ExportWords read_export_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   ExportWords out;
   ExportOptions& options = out.options;
 
@@ -162,7 +162,7 @@ ExportWords read_export_options(const char* text) {
 
 DriveOptions read_drive_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   DriveOptions out;
 
   // The plant and its dampers.
@@ -202,7 +202,7 @@ DriveOptions read_drive_options(const char* text) {
 
 InPlantWords read_in_plant_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   InPlantWords out;
 
   // One law, with the words that have a meaning inside a plant.
@@ -229,7 +229,7 @@ InPlantWords read_in_plant_options(const char* text) {
 
 PlantEvaluationOptions read_plant_evaluation_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   PlantEvaluationOptions options;
   const int steps = whole_int(reader, "steps", 0);
   if (steps < 0) throw Error("options, steps", "is " + std::to_string(steps), "0 or more");
@@ -241,7 +241,7 @@ PlantEvaluationOptions read_plant_evaluation_options(const char* text) {
 
 ObserveOptions read_observe_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   ObserveOptions options;
   options.causal = reader.boolean("causal", options.causal);
   options.level = reader.number("level", options.level);
@@ -273,7 +273,7 @@ ObserveOptions read_observe_options(const char* text) {
 
 WatchWords read_watch_options(const char* text) {
   const Value value = parse_options(text);
-  ObjectReader reader(value, "the options");
+  ObjectReader reader(value, "the JSON");
   WatchWords words;
   WatchOptions& options = words.options;
   const auto read_names = [&](const char* key, std::vector<std::string>& names) {

@@ -264,9 +264,11 @@ TEST_CASE("wrong options, paths and calls in the wrong order give a status") {
   };
   CHECK(contains(refusal("{"), "options"));
   CHECK(contains(refusal("[]"), "options"));
-  CHECK(contains(refusal(R"({"model": "bingham"})"), "unknown key 'model'"));
+  CHECK(contains(refusal(R"({"model": "bingham"})"),
+                 "options, model: the JSON has an unknown key 'model'"));
   CHECK(contains(refusal(R"({"models": ["bingam"]})"), "did you mean 'bingham'"));
   CHECK(contains(refusal(R"({"models": []})"), "names no model"));
+  CHECK(contains(refusal(nullptr), "options, models: 'usual' is "));
   CHECK(contains(refusal(nullptr), "one; dashpot_identify compares several"));
   CHECK(contains(refusal(R"({"models": ["bingham"], "starts": 0})"), "1 or more"));
   CHECK(contains(refusal(R"({"models": ["bingham"], "seed": -1})"), "0 or more"));
