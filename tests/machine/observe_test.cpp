@@ -163,6 +163,22 @@ TEST_CASE("observe: an accelerometer that shows gravity is told, one whose zero 
   CHECK(contains(told(), "ride, az_body: its zero came out at "));
 }
 
+TEST_CASE("observe: a recording that the filter loses is told of") {
+  std::string car = kObservedCar;
+  const std::string road = "{kind: ground, class: C, speed: 20 m/s}";
+  car.replace(car.find(road), road.size(), "{channel: road, kind: ground, noise: 0.2 mm}");
+  ObservedRide ride = spencer_ride(car, 3);
+  const auto samples_of = [&](std::string_view name) -> std::vector<double>& {
+    return std::ranges::find(ride.recorded.channels, name, &Channel::name)->samples;
+  };
+  std::swap(samples_of("az_body"), samples_of("az_wheel"));
+  const ObserveReport report = observe(tanh_of_spencer(), kCarDomain, ride.setup, {ride.recorded},
+                                       {.force = {{30, 0.01}, {50, 1}}});
+  CHECK(std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    return warning.starts_with("ride, az_wheel: what was expected of it is ");
+  }));
+}
+
 TEST_CASE("observe: a law that leaps where the stroke crosses 0 is told of where it finds that") {
   const auto leaping = tanh_of_spencer(0.4);
   ObservedRide ride = ride_with(*leaping, kObservedCar, 3);

@@ -674,10 +674,16 @@ ObserveReport observe(ObservedDampers dampers, const InPlantSetup& setup,
   }
 
   // What speaks against the bands.
-  constexpr double kFewInside = 0.8;
+  constexpr double kFewInside = 0.8, kFarOff = 3;
   for (const ObservedRecording& told : report.recordings)
     for (const ObservedSensor& sensor : told.sensors)
-      if (sensor.inside < kFewInside * options.level)
+      if (sensor.surprise > kFarOff * sensor.rms)
+        report.warnings.push_back(
+            told.name + ", " + sensor.channel + ": what was expected of it is " +
+            format_number(sensor.surprise / sensor.rms, 2) +
+            " times its rms away, so that nothing told of this recording can be used: are damper "
+            "and plant those of it, and is each column the sensor that the plant says?");
+      else if (sensor.inside < kFewInside * options.level)
         report.warnings.push_back(
             told.name + ", " + sensor.channel + ": only " + format_number(100 * sensor.inside, 2) +
             " % of what it shows lies within its " + format_number(100 * options.level, 2) +
