@@ -141,6 +141,11 @@ TEST_CASE("a velocity that sticks while the displacement goes on is told; a stea
                  "the velocity stands at 0 m/s from 1.25 s to 1.648 s while "
                  "the displacement goes"));
 
+  // One that is dead for whole cycles, after which the displacement is back.
+  Record dead = record;
+  std::ranges::fill(samples(dead, "velocity"), 0);
+  CHECK(contains(only_doubt(dead), "the velocity stands at 0 m/s from 0 s to "));
+
   // A ramp to and fro, and the friction of it.
   Record ramp = record;
   for (std::size_t k = 0; k < ramp.size(); ++k) {

@@ -191,12 +191,19 @@ std::optional<std::string> stuck_velocity(const Record& record, const Samples& d
   const auto [low, high] = std::ranges::minmax(displacement);
   for (const Run& run : equal_runs(velocity->samples, kLeast)) {
     const double v = velocity->samples[run.first];
-    const double way = v * (record.time[run.end - 1] - record.time[run.first]);
-    const double gone = displacement[run.end - 1] - displacement[run.first];
-    if (std::abs(gone - way) > kShareOfStroke * (high - low))
+
+    // How far it is from where that velocity would have it: after whole cycles it is back.
+    double least = 0, most = 0;
+    for (std::size_t k = run.first; k < run.end; ++k) {
+      const double way = v * (record.time[k] - record.time[run.first]);
+      const double elsewhere = displacement[k] - displacement[run.first] - way;
+      least = std::min(least, elsewhere);
+      most = std::max(most, elsewhere);
+    }
+    if (most - least > kShareOfStroke * (high - low))
       return "the velocity stands at " + format_number(v, 6) + " m/s " + between(record, run) +
-             " while the displacement goes " + format_number(gone, 3) +
-             " m: the sensor stuck, or its range was too small";
+             " while the displacement goes up to " + format_number(most - least, 3) +
+             " m elsewhere: the sensor stuck, or its range was too small";
   }
   return std::nullopt;
 }
