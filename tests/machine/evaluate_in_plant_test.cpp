@@ -1,6 +1,7 @@
 #include "dashpot/machine/evaluate_in_plant.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
@@ -115,6 +116,17 @@ TEST_CASE("evaluate in a plant: a sensor that counts the other way round is told
   const PlantEvaluation told = evaluate_in_plant({as_damper(truth)}, setup, {ride}, {});
   REQUIRE(!told.warnings.empty());
   CHECK(contains(told.warnings.front(), "x: shows -1 times what the model does"));
+
+  // A column that is another signal is told as such: no factor makes it this one.
+  for (Channel& channel : ride.channels)
+    if (channel.name == "x")
+      for (std::size_t k = 0; k < channel.samples.size(); ++k)
+        channel.samples[k] = 1e-5 * std::sin(2 * std::numbers::pi * 0.031 * static_cast<double>(k));
+  const std::vector<std::string> other =
+      evaluate_in_plant({as_damper(truth)}, setup, {ride}, {}).warnings;
+  REQUIRE(!other.empty());
+  CHECK(contains(other.front(), "x: the model is "));
+  CHECK(contains(other.front(), "further than from no motion at all"));
 
   // What is too short to be judged was never to be fitted.
   CHECK(contains(

@@ -184,6 +184,7 @@ struct MainFlaw {
 MainFlaw main_flaw(const std::vector<SensorPair>& pairs) {
   constexpr double kLooked = 0.1;    // rms of the error over that of the signal, and more
   constexpr double kExplains = 0.3;  // of the power is left at most
+  constexpr double kOfSignal = 0.5;  // likewise of the signal's, by a factor
   const double before = left_at(pairs);
   if (!(before > kLooked * kLooked)) return {};
 
@@ -196,7 +197,9 @@ MainFlaw main_flaw(const std::vector<SensorPair>& pairs) {
   const auto ask = [&](MainFlaw::Of of, const Flaw& flaw) {
     if (flaw.left < main.left) main = {of, flaw.value, flaw.left, before};
   };
-  ask(MainFlaw::Of::Factor, as_factor(pairs));
+  // A factor near 0 takes the model away from any sensor, and leaves the signal.
+  if (const Flaw factor = as_factor(pairs); factor.left < kOfSignal)
+    ask(MainFlaw::Of::Factor, factor);
   ask(MainFlaw::Of::Delay, as_delay(pairs));
   ask(MainFlaw::Of::Drift, as_drift(pairs));
   ask(MainFlaw::Of::Spikes, as_spikes(pairs));
