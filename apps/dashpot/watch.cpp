@@ -49,7 +49,7 @@ constexpr std::string_view kWatchExample =
     "# A half car whose dampers are not alike: which of them fades\n"
     "dashpot watch front=firm.json,rear=soft.json --in half.yaml days --state half.watch";
 
-constexpr StoreFormat kWatchFormat{"watch", 1, "name another --state, or remove this one"};
+constexpr StoreFormat kWatchFormat{"watch", 1, "remove this one", "--state"};
 
 /// A recording that is to be looked at.
 struct NewDay {

@@ -156,6 +156,8 @@ TEST_CASE("watch: what cannot be is said before the work" * doctest::test_suite(
   CHECK(contains(refusal("--in " + plant + " --level y"), "'y' is no sensor of the plant; "));
   CHECK(contains(refusal("--in " + plant + " --reference 2"), "is 2 days; 5 or more"));
   CHECK(contains(refusal("--in " + plant + " " + day), "is the same file as"));
+  CHECK(contains(refusal("--in " + plant + " --state " + model),
+                 "is no file of watch results; give another --state"));
 }
 
 TEST_CASE("watch: of two dampers it says which one fades, and by how much" *

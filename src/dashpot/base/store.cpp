@@ -46,9 +46,10 @@ std::string_view text_in(const SQLite::Column& column) {
   return {static_cast<const char*>(column.getBlob()), static_cast<std::size_t>(column.size())};
 }
 
-Error in_use(const std::string& file) {
-  return {file, "is in use by another process",
-          "wait until that has ended, or give another --output"};
+std::string another(std::string_view option) { return "give another " + std::string(option); }
+
+Error in_use(const std::string& file, std::string_view option) {
+  return {file, "is in use by another process", "wait until that has ended, or " + another(option)};
 }
 
 /// An SQLite failure as an Error that says what the user can do.
@@ -58,9 +59,9 @@ Error explained(const std::string& file, const StoreFormat& format,
   switch (failure.getErrorCode()) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return in_use(file);
+      return in_use(file, format.option);
     case SQLITE_NOTADB:
-      return {file, "is no file of " + name + " results", "give another --output"};
+      return {file, "is no file of " + name + " results", another(format.option)};
     case SQLITE_CORRUPT:
     case SQLITE_ERROR:  // a table of ours is missing
       return {file, "is damaged: " + std::string(failure.what()), renewal};
@@ -187,7 +188,7 @@ struct Store::Connection {
 
   void require_same_format() {
     if (pragma("application_id") != kApplication)
-      throw Error(file, "is a database of another program", "give another --output");
+      throw Error(file, "is a database of another program", another(format.option));
     const int layout = pragma("user_version");
     if (layout != kLayout && layout != kWithoutChecksums) refuse_version(layout < kLayout);
 
@@ -198,7 +199,7 @@ struct Store::Connection {
     const int version = mark.getColumn(1).getInt();
     if (name != format.name)
       throw Error(file, "holds " + name + " results, no " + std::string(format.name) + " results",
-                  "give another --output");
+                  another(format.option));
     if (version != format.version) refuse_version(version < format.version);
   }
 
@@ -267,7 +268,7 @@ struct Store::Connection {
   }
 
   std::string another_or_anew() const {
-    return "give another --output, or " + std::string(format.renewal);
+    return another(format.option) + ", or " + std::string(format.renewal);
   }
 
   std::string file;
@@ -326,7 +327,7 @@ void Store::remove(const std::filesystem::path& path) {
     database.exec(kLock);
     database.exec("BEGIN EXCLUSIVE; ROLLBACK");
   } catch (const SQLite::Exception& failure) {
-    if (failure.getErrorCode() == SQLITE_BUSY) throw in_use(path.string());
+    if (failure.getErrorCode() == SQLITE_BUSY) throw in_use(path.string(), StoreFormat{}.option);
   }
 
   for (const char* end : {"", "-wal", "-journal"}) std::filesystem::remove(path.string() + end);

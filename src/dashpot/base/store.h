@@ -18,8 +18,9 @@ using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 /// The kind of results that a store holds: a constant of the program.
 struct StoreFormat {
   std::string_view name;     ///< in messages and in the file: "search", "fit"
-  int version;               ///< of the bytes of a result; a file of another version is refused
+  int version = 0;           ///< of the bytes of a result; a file of another version is refused
   std::string_view renewal;  ///< how the user begins anew: "begin anew with --fresh"
+  std::string_view option = "--output";  ///< by which the user names the file or its folder
 };
 
 /// What a store says of itself.
