@@ -93,6 +93,12 @@ InPlantSetup true_setup(InPlantSetup setup, const PlantBenchSettings& settings) 
 /// The road under the plant: as asked for, or as the plant's file says of one that nothing
 /// measures.
 std::string road_of(const InPlantSetup& setup, const PlantBenchSettings& settings) {
+  const auto is_pushed = [](const PlantInputChannel& input) {
+    return input.place.kind == PlantInput::Force;
+  };
+  if (!settings.road.empty() && std::ranges::all_of(setup.inputs, is_pushed))
+    throw UsageError("--road", "moves a plant by its ground, and forces alone move this one",
+                     "--push");
   if (!settings.road.empty()) return settings.road;
   for (const PlantInputChannel& input : setup.inputs) {
     if (input.place.kind != PlantInput::Ground) continue;

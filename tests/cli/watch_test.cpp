@@ -158,6 +158,11 @@ TEST_CASE("watch: what cannot be is said before the work" * doctest::test_suite(
   CHECK(contains(refusal("--in " + plant + " " + day), "is the same file as"));
   CHECK(contains(refusal("--in " + plant + " --state " + model),
                  "is no file of watch results; give another --state"));
+  CHECK(contains(run_dashpot("bench --in " + plant +
+                             " --damper kwok2006 --true mass=103kg "
+                             "--road iso8608")
+                     .output,
+                 "--road: moves a plant by its ground, and forces alone move this one; --push"));
 }
 
 TEST_CASE("watch: of two dampers it says which one fades, and by how much" *
