@@ -73,6 +73,13 @@ TEST_CASE("a build that not one in a hundred would be is marked") {
                                  "lies beyond 2.58"});
   const auto refuses = model.with_outside(OutsideFamily::Refuse);
   CHECK(contains(message_of([&] { refuses->specialised({{"build", 9}}); }), "build is 9"));
+  CHECK(contains(message_of([&] { model.specialised({{"build", -11}}); }), "more than -10"));
+
+  // A family that knows no builds has none that is odd.
+  Family alike = model.family();
+  alike.build_spread = 0;
+  const FamilyModel unknowing(std::make_shared<Family>(alike), example_member());
+  CHECK(unknowing.specialised({{"build", 9}})->extrapolations().empty());
 }
 
 TEST_CASE("a member outside the family is marked, or refused where that is asked") {

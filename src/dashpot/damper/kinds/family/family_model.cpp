@@ -86,6 +86,11 @@ std::unique_ptr<DamperModel> FamilyModel::with_offset(double newton) const {
 
 std::shared_ptr<const FamilyModel> FamilyModel::with_member(const FamilyMember& member) const {
   auto model = std::make_shared<const FamilyModel>(family_, member, offset_);
+  if (!(model->strength() > 0))
+    throw Error(name(),
+                "a build of " + format_number(member.build) +
+                    " standard deviations would have no force, or push where the others brake",
+                "more than " + format_number(-1 / family_->build_spread));
   if (family_->outside == OutsideFamily::Refuse)
     if (const std::vector<std::string> outside = model->extrapolations(); !outside.empty())
       throw Error(name(), "cannot tell of this damper: " + join(outside, "; "),
@@ -161,9 +166,9 @@ std::vector<std::string> FamilyModel::extrapolations() const {
   }
   if (yield_excess() > 0) add(kYieldStress, "Pa", member_.yield.greatest(), *family_->yield);
 
-  // A build has no range but that of chance.
+  // A build has no range but that of chance, and counts where the family knows of builds.
   constexpr double kOneInHundred = 2.58;  // standard deviations, to either side
-  if (std::abs(member_.build) > kOneInHundred)
+  if (family_->build_spread > 0 && std::abs(member_.build) > kOneInHundred)
     outside.push_back("build is " + format_number(member_.build) +
                       " standard deviations, not one build in a hundred lies beyond " +
                       format_number(kOneInHundred));
