@@ -57,6 +57,7 @@ class InsideAPlant(InFolder):
 
         # In free run, the fit leaves what it left where it was fitted, to the time that it held back.
         run = dashpot.evaluate_in_plant(fit.model, self.table(), fit.plant)
+        self.assertEqual(repr(run), "<dashpot.PlantRun of 1 rides>")
         sensor = fit.report["sensors"][0]
         self.assertAlmostEqual(run.error(sensor["sensor"]) / sensor["error_fitted"], 1, delta=0.3)
         self.assertIn("damper_force [N]", run.rides[0]["columns"])

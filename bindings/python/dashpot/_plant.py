@@ -140,6 +140,9 @@ class _RideTables:
     def __len__(self) -> int:
         return len(self.rides)
 
+    def __repr__(self) -> str:
+        return f"<dashpot.{type(self).__name__} of {len(self)} rides>"
+
     def frame(self, ride: int = 0):
         """A ride as a DataFrame (pandas), its columns named with their units."""
         import pandas
