@@ -281,15 +281,21 @@ std::string verdict_of(const RideStudy& study) {
   };
   const bool comforts = beats_passive(comfort, "weighted_acceleration"),
              holds = beats_passive(holding, "tyre_load");
-  if (&comfort == &holding && comforts && holds)
-    return sentence(comfort, "Best in comfort and in road holding is ") +
-           better_held(study, comfort);
+  if (&comfort == &holding) {
+    const char* const best =
+        comforts && holds ? "Best in comfort and in road holding is "
+        : comforts
+            ? "Most comfortable, and nearest to passive on the road, where none beats it, is "
+        : holds ? "Best on the road, and nearest to passive in comfort, where none beats it, is "
+                : "None beats passive in comfort or on the road; the nearest in both is ";
+    return sentence(comfort, best) + better_held(study, comfort);
+  }
   return sentence(comfort, comforts ? "Most comfortable is "
                                     : "None is more comfortable than passive; the nearest is ") +
          ' ' +
          sentence(holding, holds ? "Best on the road is "
                                  : "None holds the road better than passive; the nearest is ") +
-         better_held(study, comfort) + (&comfort == &holding ? "" : better_held(study, holding));
+         better_held(study, comfort) + better_held(study, holding);
 }
 
 Value gains_json(const std::vector<GainPoint>& points) {

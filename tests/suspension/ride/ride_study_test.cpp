@@ -1,6 +1,7 @@
 #include "dashpot/suspension/ride/ride_study.h"
 
 #include <numbers>
+#include <tuple>
 
 #include "dashpot/report/ride_document.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
@@ -107,6 +108,39 @@ TEST_CASE("gains of a vehicle with several tyres say whose they are") {
   const Document page = ride_document(study_ride(options));
   REQUIRE(page.sections[1].remarks.size() == 1);
   CHECK(contains(page.sections[1].remarks[0], "those of front_tyre and of the strut front alone"));
+}
+
+TEST_CASE("a ride's verdict tells of one controller once, whatever it is best or nearest in") {
+  RideStudyOptions options = small_study();
+  options.frequencies = {8};
+  RideStudy study = study_ride(options);
+  study.held.clear();
+
+  // sh_add is the best of both controllers in both aims, beside a passive car of its own making.
+  const auto set = [](RiddenVehicle& one, double comfort, double holding) {
+    for (RideMeasure& measure : one.road.measures) {
+      if (measure.name == "weighted_acceleration") measure.value = comfort;
+      if (measure.name == "tyre_load") measure.value = holding;
+    }
+  };
+  set(study.controlled[0], 3, 30);
+  set(study.controlled[1], 2, 20);
+  for (const auto& [comfort, holding, said] :
+       {std::tuple{2.5, 25.0, "Best in comfort and in road holding is sh_add: "},
+        {2.5, 10.0,
+         "Most comfortable, and nearest to passive on the road, where none beats it, "
+         "is sh_add: "},
+        {1.0, 25.0,
+         "Best on the road, and nearest to passive in comfort, where none beats it, "
+         "is sh_add: "},
+        {1.0, 10.0,
+         "None beats passive in comfort or on the road; the nearest in both is "
+         "sh_add: "}}) {
+    set(study.passive, comfort, holding);
+    const std::string verdict = ride_document(study).verdict;
+    CHECK_MESSAGE(verdict.starts_with(said), verdict);
+    CHECK(verdict.find("sh_add") == verdict.rfind("sh_add"));
+  }
 }
 
 TEST_CASE("a ride on a seat is told of the seat and of who sits on it") {
