@@ -722,35 +722,44 @@ static inline void filter_update(const PlantFilter* f, const double* before, con
   filter_take(f, s, c, sample);
 }
 
-/* Brings the memories along the motion that is told, from the estimate at the sample before to s,
- * straight in between. */
+/* Brings the memory of damper d along its motion from the sample before to this one, straight in
+ * between: from what it was there, `past`. */
+static inline void filter_carry(const PlantFilter* f, int d, const DamperInput* start,
+                                const DamperInput* end, const double* c, const double* past,
+                                double* z) {
+  double reach[FILTER_MOST_DAMPER + 2];
+  DamperInput from, to = *start;
+  int k, step;
+  for (k = 0; k < (3 * f->memory[d]); ++k) {
+    z[k] = past[k];
+  }
+  filter_reach(f, d, c, reach);
+  for (step = 1; step <= f->steps; ++step) {
+    const double share = (double)step / (double)f->steps;
+    from = to;
+    to.displacement = start->displacement + (share * (end->displacement - start->displacement));
+    to.velocity = start->velocity + (share * (end->velocity - start->velocity));
+    to.current = start->current + (share * (end->current - start->current));
+    filter_go(f, d, &from, &to, reach[1], z);
+  }
+}
+
+/* Brings all memories along the motion that is told, from the estimate at the sample before to s.
+ */
 static inline void filter_remember(const PlantFilter* f, const double* before, const double* now,
                                    const double* past, const double* c, double* s) {
-  double slopes[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS], reach[FILTER_MOST_DAMPER + 2];
-  int d, k, step;
+  double slopes[FILTER_MOST_INPUTS + FILTER_MOST_DAMPERS];
+  int d;
   filter_slopes(f, before, now, slopes);
   for (d = 0; d < f->dampers; ++d) {
-    double* z = &s[filter_memory(f, d)];
-    DamperInput start, end, from, to;
-    if (f->memory[d] == 0) {
-      continue;
-    }
-    for (k = 0; k < (3 * f->memory[d]); ++k) {
-      z[k] = past[filter_memory(f, d) + k];
-    }
+    const int place = filter_memory(f, d);
+    DamperInput start, end;
     filter_input(f, d, before, slopes, past, &start);
     filter_shift_motion(f, d, past, 0, &start);
     filter_input(f, d, now, slopes, s, &end);
     filter_shift_motion(f, d, s, 0, &end);
-    filter_reach(f, d, c, reach);
-    to = start;
-    for (step = 1; step <= f->steps; ++step) {
-      const double share = (double)step / (double)f->steps;
-      from = to;
-      to.displacement = start.displacement + (share * (end.displacement - start.displacement));
-      to.velocity = start.velocity + (share * (end.velocity - start.velocity));
-      to.current = start.current + (share * (end.current - start.current));
-      filter_go(f, d, &from, &to, reach[1], z);
+    if (f->memory[d] > 0) {
+      filter_carry(f, d, &start, &end, c, &past[place], &s[place]);
     }
   }
 }
