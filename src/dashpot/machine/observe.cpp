@@ -300,7 +300,7 @@ LikelyNoise most_likely(const NoiseSearch& search, const Telling& telling,
   };
 
   // Differences in every direction, a core each.
-  MinimiseOptions solver{.max_iterations = 60, .function_tolerance = 1e-6};
+  MinimiseOptions solver{.max_iterations = 40, .function_tolerance = 1e-5};
   solver.on_iteration = [&](int iteration, double, std::span<const double>) {
     options.monitor.check();
     options.monitor.report("uncertainties", begun + 0.0075 * iteration);
