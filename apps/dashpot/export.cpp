@@ -146,7 +146,8 @@ CBlockMaker observer_block(const ExportSettings& settings, const ExportOptions& 
   ModelFile file = load_damper_file(settings.damper, "export", console);
   const InPlantSetup setup =
       with_identified_noise(read_in_plant_setup(settings.plant), file, settings.damper.model);
-  if (const std::string words = identified_noise_words(setup); !words.empty()) console.note(words);
+  if (const std::string words = identified_noise_words(setup, {}); !words.empty())
+    console.note(words);
 
   // At the step that is asked for, else that of the model's data.
   ObserveOptions observed;

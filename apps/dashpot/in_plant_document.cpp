@@ -9,6 +9,7 @@
 #include "dashpot/base/date.h"
 #include "dashpot/base/text.h"
 #include "dashpot/machine/in_plant_result.h"
+#include "dashpot/report/quantity.h"
 #include "document_text.h"
 #include "plant_advice_section.h"
 #include "sensor_figure.h"
@@ -17,16 +18,13 @@
 namespace dashpot::cli {
 namespace {
 
-std::string value_text(const FittedParameter& p) { return format_number(p.value, 5); }
-
-std::string interval_text(const FittedParameter& p) {
-  if (p.fixed) return "fixed";
-  if (!has_interval(p)) return "none";
-  return format_number(p.low, 5) + " ... " + format_number(p.high, 5);
-}
+/// Parameters are told in the SI units in which files and options state them, what belongs to a
+/// sensor in those in which people see it.
+enum class Shown { AsStated, AsSeen };
 
 DocumentTable parameter_table(const std::string& title,
-                              const std::vector<FittedParameter>& parameters) {
+                              const std::vector<FittedParameter>& parameters,
+                              Shown shown = Shown::AsStated) {
   DocumentTable table{.title = title,
                       .columns = {{"parameter"},
                                   {"value", true},
@@ -38,7 +36,15 @@ DocumentTable parameter_table(const std::string& title,
     std::string remark = p.meaning;
     if (p.at_bound) remark = "at a bound of its range";
     if (p.weak) remark = "cannot be told from these sensors";
-    table.rows.push_back({p.name, value_text(p), interval_text(p), p.unit, remark});
+
+    const auto text = [&](double value) {
+      return shown == Shown::AsSeen ? quantity(value, p.unit, 5) : format_number(value, 5);
+    };
+    std::string interval = text(p.low) + " ... " + text(p.high);
+    if (!has_interval(p)) interval = "none";
+    if (p.fixed) interval = "fixed";
+    table.rows.push_back({p.name, text(p.value), interval,
+                          shown == Shown::AsSeen ? unit_name(p.unit) : p.unit, remark});
   }
   return table;
 }
@@ -57,9 +63,10 @@ DocumentTable sensor_table(const InPlantReport& report) {
                       .rows = {}};
 
   for (const SensorFigures& s : report.sensors)
-    table.rows.push_back({s.recording, s.channel, s.unit, format_number(s.rms),
-                          format_number(s.training), format_number(s.held_back),
-                          format_number(100 * s.held_back / s.rms, 3), format_number(s.offset, 3)});
+    table.rows.push_back({s.recording, s.channel, unit_name(s.unit), quantity(s.rms, s.unit, 4),
+                          quantity(s.training, s.unit, 4), quantity(s.held_back, s.unit, 4),
+                          format_number(100 * s.held_back / s.rms, 3),
+                          quantity(s.offset, s.unit, 2)});
 
   table.note =
       report.road_measured
@@ -76,7 +83,8 @@ std::vector<std::string> noise_lines_of(const InPlantReport& report) {
   std::vector<std::string> told, untold, lines;
   for (const FoundNoise& one : report.noise)
     if (one.deviation > 0)
-      told.push_back(one.channel + " " + format_number(one.deviation, 3) + " " + one.unit);
+      told.push_back(one.channel + " " + quantity(one.deviation, one.unit) + " " +
+                     unit_name(one.unit));
     else
       untold.push_back(one.channel);
   if (!told.empty())
@@ -245,7 +253,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
     if (!best.report.damper.empty())
       section.tables.push_back(parameter_table("Damper", best.report.damper));
     if (!best.report.nuisances.empty())
-      section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
+      section.tables.push_back(parameter_table("Nuisances", best.report.nuisances, Shown::AsSeen));
     if (best.report.road_measured && !best.report.nuisances.empty())
       section.tables.back().audience = Audience::Files;
     add_advice(best.report.advice, section);

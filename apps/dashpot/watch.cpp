@@ -230,11 +230,10 @@ int run_watch(const WatchSettings& settings, Console& console) {
   // What they say.
   for (const std::string& day : odd_days(quantities, state.days())) console.warn(day);
   const Watched told{watched, state.days(), quantities, options, left_out};
-  Document document = watch_document(told);
+  Document document = watch_document(told, units);
   document.command = console.command_line();
   document.version = DASHPOT_VERSION;
   document.date = date_now();
-  document.units = units;
   print_document(document, console);
   console.print("\n" + write_document(document, settings.folder, "report", false,
                                       watch_csv(told, file_units(settings.units))));

@@ -306,13 +306,14 @@ std::string csv_titles(const Watched& watched, const PrintUnits& units) {
 
 }  // namespace
 
-Document watch_document(const Watched& watched) {
+Document watch_document(const Watched& watched, const PrintUnits& units) {
   Document document{.title = has_several(watched) ? "Dampers watched from day to day"
                                                   : "A damper watched from day to day",
                     .subtitle = std::string(watched.plant.setup.model->title),
                     .verdict = {},
                     .sections = {},
-                    .kind = "watch"};
+                    .kind = "watch",
+                    .units = units};
   document.verdict = verdict_of(watched);
 
   // The charts, with the alarms behind the first one, before the days that they stand on.
@@ -326,7 +327,7 @@ Document watch_document(const Watched& watched) {
     charts.remarks.push_back("In doubt: " + day + ".");
   for (const std::string& why : watched.left_out)
     charts.remarks.push_back("Left out: " + why + ".");
-  if (const std::string noise = identified_noise_words(watched.plant.setup); !noise.empty())
+  if (const std::string noise = identified_noise_words(watched.plant.setup, units); !noise.empty())
     charts.remarks.push_back(noise);
   charts.tables = {chart_table(watched)};
   if (has_several(watched)) charts.tables.push_back(outlook_table(watched));

@@ -67,6 +67,9 @@ TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a m
                   "--models viscous_dahl --output " +
                   results);
   CHECK(contains(one.output, "1 fit kept from before; with --fresh"));
+  // People see the sensor in mm, as of every command; JSON has m.
+  CHECK_MESSAGE(contains(one.output, " x       mm "), one.output);
+  CHECK(sensor.find("unit")->as_string() == "m");
   CHECK(stdout_of_dashpot(command + " --json").output == result.output);
 }
 

@@ -139,9 +139,11 @@ TEST_CASE("an observer's noise: stated, else of the plant's file, else of the mo
   CHECK(taken.sensors[0].zero == 0.2);
   CHECK(taken.sensors[1].noise == 1e-4);
   CHECK(taken.inputs[0].noise == 2e-4);
-  CHECK(identified_noise_words(taken) ==
-        "Noise not stated, as 'identify --in' found it (the plant's file, m.json): az 0.05 m/s^2, "
-        "level 0.0001 m, road 0.0002 m.");
+  const std::string words =
+      "Noise not stated, as 'identify --in' found it (the plant's file, m.json): az 0.05 m/s^2, ";
+  CHECK(identified_noise_words(taken, {}) == words + "level 0.1 mm, road 0.2 mm.");
+  CHECK(identified_noise_words(taken, PrintUnits::si()) ==
+        words + "level 0.0001 m, road 0.0002 m.");
   CHECK_FALSE(contains(format_json(to_json(taken)), "\"noise\""));
   CHECK(with_identified_noise(setup, model, "m.json").inputs[0].noise == 0);
 
@@ -150,7 +152,7 @@ TEST_CASE("an observer's noise: stated, else of the plant's file, else of the mo
   const InPlantSetup stated = with_identified_noise(setup, model, "m.json");
   CHECK(stated.sensors[0].noise == 0.01);
   CHECK(stated.sensors[0].zero == 0);
-  CHECK(identified_noise_words(stated).empty());
+  CHECK(identified_noise_words(stated, {}).empty());
 }
 
 TEST_CASE("noise_alone: sensors of a plant that hardly moves, and no motion however quick") {

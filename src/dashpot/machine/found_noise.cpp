@@ -167,13 +167,15 @@ InPlantSetup with_identified_noise(InPlantSetup setup, const ModelFile& file,
   return setup;
 }
 
-std::string identified_noise_words(const InPlantSetup& setup) {
+std::string identified_noise_words(const InPlantSetup& setup, const PrintUnits& units) {
   const Plant plant = make_plant(*setup.model, setup.known);
   std::vector<std::string> noises, files;
   const auto add = [&](const IdentifiedNoise& one, const std::string& channel,
                        const std::string& unit) {
     if (one.from.empty()) return;
-    noises.push_back(channel + " " + format_number(one.deviation, 3) + " " + unit);
+    const PrintUnit shown = units.of(unit);
+    noises.push_back(channel + " " + format_number(shown.factor * one.deviation, 3) + " " +
+                     shown.name);
     if (std::ranges::find(files, one.from) == files.end()) files.push_back(one.from);
   };
   for (const PlantSensor& sensor : setup.sensors)

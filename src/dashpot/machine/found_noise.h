@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/base/print_units.h"
 #include "dashpot/machine/in_plant_report.h"
 #include "dashpot/machine/in_plant_setup.h"
 #include "dashpot/machine/plant_recording.h"
@@ -30,8 +31,8 @@ std::vector<std::string> noise_alone(const InPlantSetup& setup,
 InPlantSetup with_identified_noise(InPlantSetup setup, const ModelFile& file,
                                    const std::string& model);
 
-/// Which noise was not stated but is as identified, and who says so, in one sentence; empty where
-/// none is.
-std::string identified_noise_words(const InPlantSetup& setup);
+/// Which noise was not stated but is as identified, and who says so, in one sentence in these
+/// units; empty where none is.
+std::string identified_noise_words(const InPlantSetup& setup, const PrintUnits& units);
 
 }  // namespace dashpot

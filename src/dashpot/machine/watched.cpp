@@ -69,8 +69,9 @@ Value to_json(const Watched& watched) {
   for (std::size_t d = 0; d < watched.days.size(); ++d) days.push_back(day_json(watched, d));
 
   // The plant and its dampers; of several, which alarm came first and what is in doubt.
-  Value told = Value::object({{"plant", watched.plant.setup.model->name},
-                              {"noise", identified_noise_words(watched.plant.setup)}});
+  Value told =
+      Value::object({{"plant", watched.plant.setup.model->name},
+                     {"noise", identified_noise_words(watched.plant.setup, PrintUnits::si())}});
   const WatchedQuantity* alarm = watched.first_alarm();
   const ObservedDampers& dampers = watched.plant.dampers;
   if (dampers.size() == 1) {
