@@ -102,6 +102,11 @@ TEST_CASE("wrong input is refused with its place") {
   const std::string good = "t_s,x_mm,F_N\n0,1,2\n0.1,2,3\n";
   CHECK(has(message_for("a.csv", "t_s,x_mm\n0,1\n0.1,2\n"),
             "no column is force by its name (it has 't_s', 'x_mm')"));
+  // A ride, which another command takes, and a bench's recording, which lacks its force.
+  const std::string in_plant = "'dashpot identify --in PLANT' finds the damper there; else state";
+  CHECK(has(message_for("a.csv", "t_s,road [m],az [m/s^2]\n0,0,1\n0.1,0,2\n"), in_plant));
+  CHECK(has(message_for("a.csv", "t_s,az,level\ns,g,mm\n0,0,1\n0.1,0,2\n"), in_plant));
+  CHECK_FALSE(has(message_for("a.csv", "t_s,x_mm\n0,1\n1,2\n"), in_plant));
   CHECK(has(message_for("a.csv", "t_s,x_mm,Peak force [N]\n0,1,2\n0.1,2,3\n"),
             "'Peak force [N]' not used: 'Peak force' is not a measurement by its name"));
   CHECK(has(message_for("a.csv", good + "0.2,abc,3\n0.3,2,3\n"),

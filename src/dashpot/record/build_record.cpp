@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "dashpot/base/escape.h"
+#include "dashpot/base/sensor_unit.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
@@ -30,6 +31,16 @@ const ColumnUse* find_use(const ColumnUses& uses, std::string_view channel) {
   for (const ColumnUse& use : uses.used)
     if (use.channel == channel) return &use;
   return nullptr;
+}
+
+/// Whether columns without a force are what sensors of a plant show: some count accelerations.
+bool is_of_plant(const RawTable& table) {
+  const Dimension acceleration = parse_sensor_unit("m/s^2")->dimension;
+  return std::ranges::any_of(table.columns, [&](const RawColumn& column) {
+    const auto parts = parts_by_brackets(column.name);
+    const auto unit = parse_sensor_unit(parts ? parts->unit : column.unit);
+    return unit && unit->dimension == acceleration;
+  });
 }
 
 /// Empty when the table is a recording of a damper, that is when it has a motion and a force; else
@@ -76,7 +87,12 @@ std::string refusal(const RawTable& table, const ColumnUses& uses, bool as_given
     if (is_told(why) && told++ < kToldColumns)
       refused += ", '" + label(table.columns[column], column) + "' " + why;
   return "no column is " + missing + " by its name (it has " + table.column_list() + refused +
-         "); " + how;
+         "); " +
+         (!force && !as_given && is_of_plant(table) ? "where it was recorded in a car, a building "
+                                                      "or a rig, 'dashpot identify --in PLANT' "
+                                                      "finds the damper there; else "
+                                                    : "") +
+         how;
 }
 
 void require_numbers(const RawTable& table, const ColumnUse& use, bool as_given) {
