@@ -224,6 +224,15 @@ TEST_CASE("recorded ground is read in the unit that its column names") {
     CHECK_CLOSE(road.tracks[0][1], 0.02, 1e-9, 0);
     CHECK(road.description.find("heights over 20 mm") != std::string::npos);
   }
+
+  // Brackets within brackets belong to the name; the unit stands in the last ones.
+  write_file(folder.path() / "road.csv",
+             "(Profile 1 (Gocator2342)) - Distance (ft),(Profile 1 (Gocator2342)) - Height (in)\n"
+             "0,0\n1,1\n2,0\n");
+  const RoadProfile feet = load_road(folder.path() / "road.csv");
+  CHECK_CLOSE(feet.spacing, 0.3048, 1e-12, 0);
+  CHECK_CLOSE(feet.tracks[0][1], 0.0254, 1e-12, 0);
+
   write_file(folder.path() / "road.csv", "s,z\n0,0\n1,0.02\n2,0\n");
   CHECK(load_road(folder.path() / "road.csv").description.find("taken as m)") != std::string::npos);
 

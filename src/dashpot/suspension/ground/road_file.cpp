@@ -17,6 +17,20 @@ namespace {
 constexpr Dimension kOfLength{0, 1, 0, 0, 0}, kOfTime{0, 0, 1, 0, 0},
     kOfAcceleration{0, 1, -2, 0, 0};
 
+/// What stands in the last brackets of a name, which may hold others: "ft" of "track (2 (left)) -
+/// way (ft)". Nothing where there are none.
+std::optional<std::string_view> in_last_brackets(std::string_view name) {
+  const std::size_t close = name.find_last_of("])");
+  if (close == std::string_view::npos) return std::nullopt;
+  int depth = 0;
+  for (std::size_t k = close + 1; k-- > 0;) {
+    if (name[k] == ']' || name[k] == ')') ++depth;
+    if ((name[k] == '[' || name[k] == '(') && --depth == 0)
+      return trim(name.substr(k + 1, close - k - 1));
+  }
+  return std::nullopt;
+}
+
 /// The unit that a column states: below its name, in brackets behind it ("height [mm]"), or behind
 /// its last underscore ("z_mm"); "" where it states none. "(2)" counts columns and is none, and so
 /// is a capital behind the underscore that is no unit of what is `wanted`: "height_A" is of track
@@ -24,11 +38,8 @@ constexpr Dimension kOfLength{0, 1, 0, 0, 0}, kOfTime{0, 0, 1, 0, 0},
 std::string unit_of(const RawColumn& column, const Dimension& wanted) {
   if (!column.unit.empty()) return column.unit;
   const std::string_view name = trim(column.name);
-  const std::size_t open = name.find_first_of("[("), close = name.find_last_of("])");
-  if (open != std::string_view::npos && close != std::string_view::npos && close > open) {
-    const std::string_view inside = trim(name.substr(open + 1, close - open - 1));
-    return parse_number(inside) ? "" : std::string(inside);
-  }
+  if (const auto inside = in_last_brackets(name))
+    return parse_number(*inside) ? "" : std::string(*inside);
   const std::size_t mark = name.rfind('_');
   if (mark == std::string_view::npos || mark == 0) return {};
   const std::string_view ending = name.substr(mark + 1);
