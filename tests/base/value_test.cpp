@@ -44,6 +44,8 @@ TEST_CASE("unknown, missing and present keys") {
         "name, rate, "
         "velocity");
   CHECK(message_of([&] { reader.required("files"); }) == "d.yaml:1: a dataset file needs 'files'");
+  CHECK(message_of([&] { ObjectReader(value, "a motion").required("velocity"); }) ==
+        "d.yaml:1: a motion needs 'velocity'; did you mean it by 'velocty'?");
 }
 
 TEST_CASE("YAML scalars by the core schema, with their lines") {

@@ -258,6 +258,14 @@ TEST_CASE("a steel's curve out of order is refused with its place") {
         std::string::npos);
   CHECK(refused("[[0, 0.1], [100, 0.3]]").find("without field") != std::string::npos);
   CHECK(refused("[[0, 0], [100, 0.3, 1]]").find("is no pair") != std::string::npos);
+  // A knee that no steel has, under the name of the steel's file.
+  const auto knee = [](const std::string& numbers) {
+    return message_of([&] { read_steel(parse_yaml("name: s\n" + numbers, "steel.yaml")); });
+  };
+  CHECK(knee("permeability: 2000\nsaturation: 15 T\n") ==
+        "steel.yaml:3: saturation is 15 T, which no steel has; 0.1 to 3 T");
+  CHECK(knee("permeability: 0.5\nsaturation: 1.5 T\n") ==
+        "steel.yaml:2: permeability is 0.5, which no steel has; 1 to 1e+06");
   // T in front of A/m.
   CHECK(refused("[[0, 0], [0.2, 238.7], [0.9, 795.8]]")
             .find("238.7 T at a field of 0.2 A/m, which no material has; pairs of A/m and T") !=

@@ -151,6 +151,10 @@ TEST_CASE("a fluid that cannot be is refused with its line and what would be rig
   says("measured:", "My Law:", "names no law");
   says("{points: [[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]}",
        "{polynomial: [100, 0.3, -1e-6], up_to: 300 kA/m}", "the yield stress falls");
+  says("{points: [[0, 200 Pa], [100 kA/m, 20 kPa], [200 kA/m, 35 kPa]]}",
+       "{polynomial: [1 kPa, 1], up_to: 300 kA/m}",
+       "is '1 kPa', not a number; coefficients without units: 1 to 4: tau = c0 + c1 H");
+  says("laws:", "lawz:", "a fluid needs 'laws'; did you mean it by 'lawz'?");
 }
 
 TEST_CASE("an unknown fluid is named, with the known ones") {

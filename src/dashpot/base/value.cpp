@@ -133,7 +133,15 @@ const Value* ObjectReader::optional(std::string_view key) {
 
 const Value& ObjectReader::required(std::string_view key) {
   if (const Value* found = optional(key)) return *found;
-  throw Error(value_.where(), what_ + " needs '" + std::string(key) + "'");
+
+  // A key that looks like it, and that nothing else has asked for so far, may be meant by it.
+  constexpr std::size_t kShortest = 4;  // of words that can look alike
+  std::vector<std::string> others;
+  for (const auto& [name, value] : value_.members())
+    if (std::ranges::find(asked_, name) == asked_.end()) others.push_back(name);
+  const auto near = key.size() < kShortest ? std::nullopt : closest(key, others);
+  throw Error(value_.where(), what_ + " needs '" + std::string(key) + "'",
+              near ? "did you mean it by '" + *near + "'?" : "");
 }
 
 double ObjectReader::number(std::string_view key) { return number_of(required(key), key); }

@@ -48,6 +48,15 @@ double read_share(const Value& value, const std::string& what) {
   return share;
 }
 
+/// The coefficients of a polynomial, which state no units of their own.
+std::vector<double> read_coefficients(const Value& polynomial, const std::string& right) {
+  for (const Value& one : polynomial.items())
+    if (one.kind() == Value::Kind::String)
+      throw Error(one.where(), "is '" + one.as_string() + "', not a number",
+                  "coefficients without units: " + right);
+  return polynomial.as_numbers();
+}
+
 /// The polynomial may not fall where it is used.
 void require_rising(const FamilyFluid& polynomial, const Value& at) {
   constexpr int kPlaces = 400;
@@ -80,7 +89,8 @@ void read_flux_law(const Value& value, FluidLaw& law) {
   if (fraction) law.volume_fraction = read_share(*fraction, "volume_fraction");
   if (points) law.flux_densities = read_flux_curve(*points);
   if (polynomial) {
-    const std::vector<double> c = polynomial->as_numbers();
+    const std::vector<double> c =
+        read_coefficients(*polynomial, "[c1, c3] of H = c1 B + c3 B^3 in A/m over T");
     if (c.size() != 2 || !(c[0] > 0 && c[1] >= 0 && std::isfinite(c[0] + c[1])))
       throw Error(polynomial->where(), "is no rising H = c1 B + c3 B^3",
                   "[c1, c3] in A/m over T and T^3, positive");
@@ -117,10 +127,10 @@ void read_yield(const Value& value, FluidLaw& law) {
     require_fields_first(law.yield_stresses, *points);
   }
   if (polynomial) {
-    const std::vector<double> c = polynomial->as_numbers();
+    const std::string right = "1 to 4: tau = c0 + c1 H + c2 H^2 + c3 H^3 in Pa over A/m";
+    const std::vector<double> c = read_coefficients(*polynomial, right);
     if (c.empty() || c.size() > 4)
-      throw Error(polynomial->where(), "has " + std::to_string(c.size()) + " coefficients",
-                  "1 to 4: tau = c0 + c1 H + c2 H^2 + c3 H^3 in Pa over A/m");
+      throw Error(polynomial->where(), "has " + std::to_string(c.size()) + " coefficients", right);
     std::ranges::copy(c, law.polynomial.yield);
     const Value& up_to = reader.required("up_to");
     law.polynomial.held_field = more_than_zero(read_quantity(up_to, "A/m"), up_to, "up_to");

@@ -5,6 +5,7 @@
 
 #include "dashpot/base/file_kind.h"
 #include "dashpot/base/read_quantity.h"
+#include "dashpot/base/text.h"
 #include "dashpot/physics/fluid_curves.h"
 #include "dashpot/physics/flux_curve.h"
 #include "dashpot/physics/named_file.h"
@@ -46,8 +47,16 @@ Steel read_steel(const Value& value) {
   } else {
     steel.permeability = read_quantity(reader.required("permeability"), "1");
     steel.saturation = read_quantity(reader.required("saturation"), "T");
-    if (!(steel.permeability >= 1 && steel.saturation > 0))
-      throw Error(value.where(), "is no steel", "permeability of 1 and more, saturation above 0 T");
+    const auto require = [&](const char* key, double number, double low, double high,
+                             const std::string& unit) {
+      if (!(number >= low && number <= high))
+        throw Error(
+            value.find(key)->where(),
+            std::string(key) + " is " + format_number(number) + unit + ", which no steel has",
+            format_number(low) + " to " + format_number(high) + unit);
+    };
+    require("permeability", steel.permeability, 1, 1e6, "");
+    require("saturation", steel.saturation, 0.1, 3, " T");
   }
   if (const Value* uncertainty = reader.optional("uncertainty"))
     steel.uncertainty = read_quantity(*uncertainty, "1");
