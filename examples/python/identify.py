@@ -7,6 +7,9 @@ import sys
 
 import dashpot
 
+if len(sys.argv) != 2:
+    sys.exit("usage: python3 identify.py RECORDINGS, a folder or a file")
+
 # %% What is there, and how every column was understood
 recordings = dashpot.Recordings(sys.argv[1])
 print(recordings.describe())

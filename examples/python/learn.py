@@ -9,6 +9,9 @@ import numpy as np
 
 import dashpot
 
+if len(sys.argv) != 2:
+    sys.exit("usage: python3 learn.py RECORDINGS, a folder or a file")
+
 recordings = dashpot.Recordings(sys.argv[1])
 
 # %% One array of samples per recording: time, displacement, velocity, current or voltage; and the force beside it

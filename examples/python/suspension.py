@@ -8,6 +8,9 @@ import sys
 
 import dashpot
 
+if len(sys.argv) != 2:
+    sys.exit("usage: python3 suspension.py RECORDINGS, a folder or a file")
+
 # %% A model of the damper
 damper = dashpot.identify(sys.argv[1], models=["tanh_kwok"], starts=1).best
 damper.save("damper.json")

@@ -1,5 +1,6 @@
 import json
 import re
+import subprocess
 import sys
 import timeit
 import unittest
@@ -41,6 +42,12 @@ class Examples(InFolder):
         for part in ("provenance",):
             best.pop(part), same.pop(part)
         self.assertEqual(best, same)
+
+    def test_usage(self):
+        for name in ("identify.py", "learn.py", "suspension.py", "run_fmu.py"):
+            told = subprocess.run([sys.executable, EXAMPLES / name], capture_output=True, text=True, cwd=self.folder)
+            self.assertNotEqual(told.returncode, 0)
+            self.assertIn(f"usage: {'python3 ' if name != 'run_fmu.py' else ''}{name}", told.stderr)
 
     def test_learn(self):
         printed = python(EXAMPLES / "learn.py", "campaign", cwd=self.folder)
