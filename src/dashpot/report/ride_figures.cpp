@@ -62,6 +62,13 @@ FigureSeries dot(const std::string& label, const std::string& colour, double x, 
   return {label, colour, {x}, {y}, FigureSeries::Mark::Dots, size};
 }
 
+/// A vehicle as a point: rings are to dots what dashes are to lines.
+FigureSeries point_of(const FigureSeries& look, double x, double y) {
+  FigureSeries point = dot(look.label, look.colour, x, y, 5);
+  if (look.mark == FigureSeries::Mark::Dashes) point.mark = FigureSeries::Mark::Rings;
+  return point;
+}
+
 /// One run of each of these vehicles.
 std::vector<DrawnRun> runs_of(const std::vector<Drawn>& vehicles,
                               const SimulatedRun RiddenVehicle::* run) {
@@ -173,7 +180,7 @@ DocumentFigure trade_off_figure(const RideStudy& study) {
   // Every controller as a point of its own.
   for (const auto& [ridden, look] : drawn(study))
     if (ridden != &study.passive)
-      panel.series.push_back(dot(look.label, look.colour, x(*ridden) / x0, y(*ridden) / y0, 5));
+      panel.series.push_back(point_of(look, x(*ridden) / x0, y(*ridden) / y0));
   return {"trade-off",
           "The trade-off on the road",
           "To the left: more comfort; down: better road holding. The grey line is what the same "
@@ -197,8 +204,8 @@ DocumentFigure possible_figure(const RideStudy& study) {
   // Every vehicle as a point above the front.
   for (const auto& [ridden, look] : drawn(study)) {
     const RideRoots at = roots(*ridden);
-    panel.series.push_back(dot(look.label, look.colour, at.acceleration / unit.acceleration,
-                               at.tyre_force / unit.tyre_force, 5));
+    panel.series.push_back(
+        point_of(look, at.acceleration / unit.acceleration, at.tyre_force / unit.tyre_force));
   }
   return {"possible",
           "What is possible on this road",

@@ -1,9 +1,11 @@
 #include "dashpot/suspension/ride/ride_study.h"
 
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include "dashpot/report/ride_document.h"
+#include "dashpot/report/ride_figures.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/plants/linear.h"
 #include "support.h"
@@ -141,6 +143,22 @@ TEST_CASE("a ride's verdict tells of one controller once, whatever it is best or
     CHECK_MESSAGE(verdict.starts_with(said), verdict);
     CHECK(verdict.find("sh_add") == verdict.rfind("sh_add"));
   }
+}
+
+TEST_CASE("the points of a ride's trade-off are told apart beyond the colours that there are") {
+  RideStudyOptions options = small_study();
+  options.frequencies = {8};
+  RideStudy study = study_ride(options);
+  while (study.controlled.size() < 14) study.controlled.push_back(study.controlled.front());
+  std::set<std::pair<std::string, FigureSeries::Mark>> looks;
+  std::size_t points = 0;
+  for (const FigureSeries& series : trade_off_figure(study).panels.front().series)
+    if (series.width == 5) {
+      looks.emplace(series.colour, series.mark);
+      ++points;
+    }
+  CHECK(points == 15);
+  CHECK(looks.size() == points);
 }
 
 TEST_CASE("a ride on a seat is told of the seat and of who sits on it") {
