@@ -44,6 +44,29 @@ std::string true_words(const InPlantSetup& asked, const InPlantSetup& setup) {
   return join(words, ", ");
 }
 
+/// Which of them are far from what the plant's file expects: a plant's table does not know the
+/// plant, and the fit begins at what is stated. Empty where none is.
+std::string far_from_expected(const InPlantSetup& asked, const InPlantSetup& setup) {
+  constexpr double kFar = 3;  // times more or less
+  const auto& rows = setup.model->parameters;
+  std::vector<std::string> words, right;
+  for (const PlantUnknown& unknown : asked.unknown) {
+    if (!unknown.about) continue;
+    const auto truth =
+        std::ranges::find(setup.known, unknown.name, &NamedValues::value_type::first);
+    const double ratio = truth->second / *unknown.about;
+    if (ratio > 1 / kFar && ratio < kFar) continue;
+    const ParameterRow& row = rows[row_named(rows, unknown.name, setup.model->name, "--true")];
+    const std::string unit(row.unit);
+    words.push_back(unknown.name + " is truly " + format_number(truth->second, 6) + ' ' + unit +
+                    ", and the plant's file says about " + format_number(*unknown.about, 6) + ' ' +
+                    unit);
+    right.push_back(unknown.name + '=' + format_number(*unknown.about, 6));
+  }
+  if (words.empty()) return {};
+  return join(words, "; ") + ": if that is not meant, --true " + join(right, ",");
+}
+
 /// The setup as it truly is: stated values in place of unknown ones, else those of the plant's
 /// table.
 InPlantSetup true_setup(InPlantSetup setup, const PlantBenchSettings& settings) {
@@ -308,6 +331,7 @@ int record_in_plant(const PlantBenchSettings& settings, const CampaignSettings& 
   const InPlantSetup asked = read_in_plant_setup(settings.plant);
   const InPlantSetup setup =
       with_grade(true_setup(asked, settings), find_sensor_grade(settings.grade, "--grade"));
+  if (const std::string far = far_from_expected(asked, setup); !far.empty()) console.warn(far);
   const std::vector<TrueDamper> as_new = true_dampers(campaign, setup, console);
   const TrueDamper& damper = as_new.front();
 

@@ -68,6 +68,17 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
   CHECK(contains(read_file(seen + "/ride_1_observed.csv"),
                  "time [s],damper_force [lbf],damper_force_half_band [lbf]"));
 
+  // The plant's table does not know what its file expects.
+  std::string expected = kRoadlessCar;
+  expected.replace(expected.find("unknown"), 7, "{about: 90 kN/m}");
+  const ProgramResult far =
+      run_dashpot("bench --in " + folder.write("far.yaml", expected).string() +
+                  " --levels 1 --duration 1 --output " + again + "_far");
+  CHECK(contains(far.output,
+                 "tyre_stiffness is truly 295200 N/m, and the plant's file says about "
+                 "90000 N/m: if that is not meant, --true tyre_stiffness=90000"));
+  CHECK_FALSE(contains(made.output, "if that is not meant"));
+
   // What cannot be used.
   CHECK(contains(run_dashpot("observe spencer1997 --in " + car + " " + rides).output,
                  "is a published damper, and no file; a model file that 'dashpot identify --in'"));
