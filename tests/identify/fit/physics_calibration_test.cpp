@@ -6,6 +6,7 @@
 #include "dashpot/base/random.h"
 #include "dashpot/damper/kinds/family/family_member.h"
 #include "dashpot/physics/damper_physics.h"
+#include "dashpot/physics/fluid.h"
 #include "dashpot/physics/plate_flow.h"
 #include "support.h"
 
@@ -105,6 +106,30 @@ TEST_CASE("a calibration finds fluid, friction and compliance of a drawn damper,
               0.8 * evaluate_physics(drawn(), at).yield_stress, 0.02, 0);
   CHECK(again.fluid->yield_uncertainty > 0);
   CHECK(again.fluid->yield_uncertainty < 0.1);
+}
+
+TEST_CASE("a calibration doubts recordings that look like another damper's") {
+  const auto doubts = [](const DamperDescription& drawing, double viscosity) {
+    std::string all;
+    for (const std::string& doubt :
+         calibrate_physics(drawing, bench_of_drawn({0, 0.5, 2}, 0.8, viscosity, 40, 8e5)).doubts)
+      all += doubt + '\n';
+    return all;
+  };
+  CHECK(doubts(drawn(), 1.3) == "");
+  CHECK(doubts(drawn(), 2.5).find("times the file's, which is off by a factor of 2 at most") !=
+        std::string::npos);
+
+  // A fluid that is known better, and a coil of fewer turns, which saturates its core later.
+  DamperDescription known = drawn();
+  Fluid fluid = *known.fluid;
+  fluid.viscosity_uncertainty = 0.1;
+  known.fluid = std::make_shared<const Fluid>(fluid);
+  CHECK(doubts(known, 1.3).find("off by a factor of 1.2 at most") != std::string::npos);
+  DamperDescription weak = drawn();
+  weak.turns *= 0.4;
+  CHECK(doubts(weak, 1.3).find("is the drawing that of the damper which was recorded, with its "
+                               "fluid and magnetic circuit?") != std::string::npos);
 }
 
 TEST_CASE("a calibration says what its recordings do not tell, and refuses what it cannot use") {

@@ -267,6 +267,35 @@ void add_levels(const CalibrationProblem& problem, const DamperDescription& draw
   }
 }
 
+/// What is found beyond what the drawing may be off: its recordings may be another damper's.
+void add_doubts_of_drawing(const DamperDescription& drawing, PhysicsCalibration& out) {
+  // What is taken as usual where a file states no uncertainty. A stated one counts twice, and is
+  // never taken for better than temperatures are known.
+  constexpr double kViscosity = 2, kTrend = 1.3, kBestKnown = 0.1;
+  const std::string right =
+      ": is the drawing that of the damper which was recorded, with its fluid";
+
+  // The viscosity, where all of its interval is too far.
+  const PhysicsCalibration::Number& viscosity = out.numbers[kViscosityScale];
+  const double stated = drawing.fluid->viscosity_uncertainty;
+  const double allowed = stated > 0 ? 1 + 2 * std::max(stated, kBestKnown) : kViscosity;
+  if (viscosity.is_known && (viscosity.low > allowed || viscosity.high < 1 / allowed))
+    out.doubts.push_back("the viscosity is " + format_number(viscosity.value, 3) +
+                         " times the file's, which is off by a factor of " +
+                         format_number(allowed, 3) + " at most" + right +
+                         " and at its temperature?");
+
+  // The shape of tau(H) times that of the steel, which one factor for all currents leaves.
+  if (out.levels.empty()) return;
+  const auto [least, greatest] =
+      std::ranges::minmax(out.levels, {}, &PhysicsCalibration::Level::ratio);
+  if (greatest.ratio > kTrend * least.ratio)
+    out.doubts.push_back("the yield stress is " + format_number(least.ratio, 3) +
+                         " times the file's at " + format_number(least.current) + " A and " +
+                         format_number(greatest.ratio, 3) + " times at " +
+                         format_number(greatest.current) + " A" + right + " and magnetic circuit?");
+}
+
 }  // namespace
 
 PhysicsCalibration calibrate_physics(const DamperDescription& drawing, const Dataset& recordings,
@@ -306,6 +335,7 @@ PhysicsCalibration calibrate_physics(const DamperDescription& drawing, const Dat
   out.converged = solved.converged;
   add_numbers(problem, solved, out);
   add_levels(problem, drawing, solved.x, out);
+  add_doubts_of_drawing(drawing, out);
 
   // The drawing by itself: stiff, with its own friction.
   std::vector<double> stiff = start;
