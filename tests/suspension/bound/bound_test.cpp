@@ -322,6 +322,34 @@ TEST_CASE("a force that slows its own motion lies on the range") {
   CHECK_CLOSE(bent.curves().share(0.1, 1150), 0.5, 1e-12, 0);
 }
 
+TEST_CASE("a car that stands until the road moves has the bound and the optimum of the rest") {
+  // Before, 0.6 s whose step came at 0.256 s had a bound of 0.04 m/s^2 beside an optimum of 0.87.
+  const ForceRange range = damping_range(300, 3900);
+  const auto bound = [&](const std::string& at, double duration) {
+    const GroundPointer ground = make_ground("step,height=3cm,at=" + at, 1);
+    return clairvoyant_bound(light_car(), *ground, range, {1, 0},
+                             {.duration = duration, .iterations = 5});
+  };
+  const ClairvoyantBound early = bound("0", 0.1), late = bound("0.05", 0.15);
+  CHECK(early.proven);
+  CHECK(early.bound > 0.5 * early.optimum);
+  CHECK_CLOSE(0.15 * late.bound, 0.1 * early.bound, 1e-6, 0);
+  CHECK_CLOSE(0.15 * late.optimum, 0.1 * early.optimum, 1e-3, 0);
+  REQUIRE(late.shares.size() == 150);
+  CHECK(std::equal(early.shares.begin(), early.shares.end(), late.shares.begin() + 50));
+
+  // A force at rest may set the car in motion before the road does, even where no more than the
+  // room that a range leaves allows it.
+  CHECK(stands(range));
+  CHECK(!stands(
+      force_range("gas", [](const DamperInput& at) { return 300 * at.velocity + 50 * at.current; },
+                  {.current_min = 0, .current_max = 1, .velocity = 1})));
+  CHECK(!stands(force_range(
+      "bent",
+      [](const DamperInput& at) { return (100 + 900 * at.current) * std::tanh(50 * at.velocity); },
+      {.current_min = 0, .current_max = 1, .velocity = 1})));
+}
+
 TEST_CASE("where the optimum goes beyond the range, nothing is proven" *
           doctest::test_suite("long")) {
   // Of a random car the certificate would have been 1.83 beside an optimum of 0.45.

@@ -54,9 +54,20 @@ double trapezes(const std::vector<double>& time, const std::vector<double>& valu
   return sum / (time.back() - time.front());
 }
 
-/// The best that some courses lead to.
+/// The cells at the start of a ride in which nothing moves, whatever the damper does; two of the
+/// search at least are left after them.
+std::size_t standing_cells(const SampledPlant& car, const ForceRange& range,
+                           const BoundOptions& options) {
+  if (!stands(range)) return 0;
+  std::size_t cells = 0;
+  while (cells < car.cells() && car.road(cells).height == 0 && car.road(cells).slope == 0) ++cells;
+  const auto last = static_cast<std::size_t>(std::ceil(2 * options.search_step / options.step));
+  return std::min(cells, car.cells() - std::min(last, car.cells()));
+}
+
+/// The best that some courses lead to. The starts begin so many cells before the car does.
 Course best_course(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
-                   const std::vector<std::vector<double>>& starts) {
+                   const std::vector<std::vector<double>>& starts, std::size_t before) {
   constexpr double kSteady[] = {0, 0.1, 0.3, 1};
   Course best{.value = INFINITY, .shares = {}};
   const auto attempt = [&](std::vector<double> shares) {
@@ -66,7 +77,8 @@ Course best_course(const SampledPlant& car, const ForceRange& range, const RideI
   };
   for (const double share : kSteady) attempt({share});
   for (const std::vector<double>& start : starts)
-    if (!start.empty()) attempt(start);
+    if (start.size() > before)
+      attempt({start.begin() + static_cast<std::ptrdiff_t>(before), start.end()});
   return best;
 }
 
@@ -165,14 +177,21 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
   // The range's spring works beside the plant's own.
   require_quarter_car(plant);
   const Plant sprung = with_spring(plant, range.stiffness);
-  const SampledPlant car(sprung, ground, options.duration, options.step);
+  const SampledPlant whole(sprung, ground, options.duration, options.step);
+
+  // What stands before the road moves adds nothing, and is left out: limits of that time would have
+  // to be without end to say so, as a motion that they let through could make ready for the road.
+  const std::size_t standing = standing_cells(whole, range, options);
+  const double begin = static_cast<double>(standing) * options.step;
+  const SampledPlant car(sprung, ground, options.duration - begin, options.step, begin);
   ClairvoyantBound found{.index = index, .squares = {}, .shares = {}};
 
   // The optimum: demands that the search finds, simulated.
   const auto report = [&](double share) { options.monitor.report(kStage, share); };
   report(0);
-  const Course course = best_course(car, range, index, options.starts);
-  found.shares = course.shares;
+  const Course course = best_course(car, range, index, options.starts, standing);
+  found.shares.assign(standing, 0.0);
+  found.shares.insert(found.shares.end(), course.shares.begin(), course.shares.end());
   const Trace best = simulated(plant, ground, range, found.shares, options);
   found.squares = ride_squares(best, plant);
   found.optimum = found.squares.of(index);
@@ -189,8 +208,8 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
 
   // The bound: limits sought on coarser cells, certified on the fine ones; the better of two ways
   // to seek them.
-  const SampledPlant coarse(sprung, ground, options.duration, options.search_step);
-  const MotionSquares motion = motion_under(car, range, found.shares);
+  const SampledPlant coarse(sprung, ground, options.duration - begin, options.search_step, begin);
+  const MotionSquares motion = motion_under(car, range, course.shares);
   constexpr double kShareOfOptimum = 0.1, kShareOfWay = 0.45;  // of the time, roughly
   double share = kShareOfOptimum;
   std::optional<double> least;
@@ -205,9 +224,9 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
     if (!range.ends) break;  // the two are one
   }
   if (!least) return found;
-  const double duration = car.step() * static_cast<double>(car.cells());
+  const double duration = whole.step() * static_cast<double>(whole.cells());
   found.bound = std::max(0.0, (Interval(*least) / Interval(duration)).low);
-  found.proven = true;
+  found.proven = found.bound > 0;
   return found;
 }
 

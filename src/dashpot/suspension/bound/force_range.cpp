@@ -80,6 +80,13 @@ ForceRange damping_range(double least, double greatest) {
 
 bool has_width(const ForceRange& range) { return range.soft != range.hard; }
 
+bool stands(const ForceRange& range) {
+  const auto zero = std::ranges::find(range.velocity, 0.0);
+  if (zero == range.velocity.end()) return false;
+  const auto node = static_cast<std::size_t>(zero - range.velocity.begin());
+  return range.soft[node] == 0 && range.hard[node] == 0;
+}
+
 namespace {
 
 struct ForceEnds {

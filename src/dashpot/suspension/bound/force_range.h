@@ -113,6 +113,9 @@ ForceRange force_range(const std::string& name, const StaticForce& force,
 ForceRange model_range(const DamperModel& model, const RangeLimits& limits);
 /// Whether there is anything to choose.
 bool has_width(const ForceRange& range);
+/// Whether a damper that stands has no force but its spring's, at any displacement: nothing that it
+/// can do sets a car in motion that stands.
+bool stands(const ForceRange& range);
 
 /// A quadratic that no force F of a range, at the displacement x and the velocity v, makes
 /// negative:

@@ -43,7 +43,7 @@ void require_quarter_car(const Plant& plant) {
 }
 
 SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, double duration,
-                           double step)
+                           double step, double start)
     : step_(step) {
   require_quarter_car(plant);
   if (!(step > 0 && duration >= step))
@@ -61,9 +61,9 @@ SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, doubl
   const Tyre& tyre = plant.tyres[0];
   const auto cells = static_cast<std::size_t>(std::llround(duration / step));
   for (std::size_t k = 0; k < cells; ++k) {
-    const double start = static_cast<double>(k) * step;
-    const double early = ground.foot(start + 0.25 * step, tyre.track, tyre.behind).height;
-    const double late = ground.foot(start + 0.75 * step, tyre.track, tyre.behind).height;
+    const double from = start + static_cast<double>(k) * step;
+    const double early = ground.foot(from + 0.25 * step, tyre.track, tyre.behind).height;
+    const double late = ground.foot(from + 0.75 * step, tyre.track, tyre.behind).height;
     road_.push_back({1.5 * early - 0.5 * late, (late - early) / (0.5 * step)});
   }
 }

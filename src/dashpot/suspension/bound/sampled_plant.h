@@ -27,8 +27,10 @@ struct AffineCar {
 /// A quarter car on its road, cell by cell of one step. Within a cell the road is straight.
 class SampledPlant {
  public:
-  /// Throws Error where require_quarter_car() does, and at times that make no sense.
-  SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step);
+  /// `start`: s, the instant of the ride at which the first cell begins. Throws Error where
+  /// require_quarter_car() does, and at times that make no sense.
+  SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step,
+               double start = 0);
 
   std::size_t cells() const noexcept { return road_.size(); }
   double step() const noexcept { return step_; }
