@@ -79,7 +79,12 @@ std::string possible_note(const RideStudy& study) {
     note += "; the damper stays within " + within.front() +
             (within.size() > 1 ? " and " + within.back() : "") +
             " either way, twice what it did in these rides";
-  return note + ". - : none could be proven.";
+  note += ". - : none could be proven.";
+  if (!std::ranges::all_of(all_of(study), &RiddenVehicle::in_range))
+    note +=
+        " Outside: its forces leave that range (another damper, or the same one with a force at "
+        "rest that the springs bear), so that neither bound nor optimum speaks of it.";
+  return note;
 }
 
 DocumentTable possible_table(const RideStudy& study) {
@@ -98,10 +103,10 @@ DocumentTable possible_table(const RideStudy& study) {
   const RideSquares passive = ride_squares(study.passive.road.trace, plant);
   for (const RiddenVehicle* one : all_of(study)) {
     const RideSquares squares = ride_squares(one->road.trace, plant);
-    table.rows.push_back({one->name(), number_text(std::sqrt(squares.acceleration)),
-                          possible_text(comfort, passive, squares),
-                          whole_text(std::sqrt(squares.tyre_force)),
-                          possible_text(holding, passive, squares)});
+    table.rows.push_back(
+        {one->name() + (one->in_range ? "" : " (outside)"),
+         number_text(std::sqrt(squares.acceleration)), possible_text(comfort, passive, squares),
+         whole_text(std::sqrt(squares.tyre_force)), possible_text(holding, passive, squares)});
   }
 
   // Below them the optima and the bounds themselves.
@@ -314,7 +319,7 @@ Value gains_json(const std::vector<GainPoint>& points) {
   return list;
 }
 
-Value ridden_json(const RiddenVehicle& ridden) {
+Value ridden_json(const RiddenVehicle& ridden, bool bounded) {
   const auto measures = [](const SimulatedRun& run) {
     Value object = Value::object();
     for (const RideMeasure& m : run.measures)
@@ -323,14 +328,16 @@ Value ridden_json(const RiddenVehicle& ridden) {
   };
 
   // Integrals first, then the measures of each ride.
-  return Value::object({{"name", ridden.name()},
-                        {"comfort_integral", comfort_integral(ridden)},
-                        {"holding_integral", holding_integral(ridden)},
-                        {"road", measures(ridden.road)},
-                        {"step", measures(ridden.step)},
-                        {"sines", gains_json(ridden.sines)},
-                        {"chirp", gains_json(ridden.chirp)},
-                        {"warnings", Value::array(ridden.road.warnings)}});
+  Value object = Value::object({{"name", ridden.name()},
+                                {"comfort_integral", comfort_integral(ridden)},
+                                {"holding_integral", holding_integral(ridden)},
+                                {"road", measures(ridden.road)},
+                                {"step", measures(ridden.step)},
+                                {"sines", gains_json(ridden.sines)},
+                                {"chirp", gains_json(ridden.chirp)},
+                                {"warnings", Value::array(ridden.road.warnings)}});
+  if (bounded) object.add("in_range", ridden.in_range);
+  return object;
 }
 
 /// The units of the measures, which are those of people.
@@ -394,15 +401,16 @@ Document ride_document(const RideStudy& study) {
 }
 
 Value ride_json(const RideStudy& study) {
+  const bool bounded = !study.front.empty();
   Value controlled = Value::array(), held = Value::array();
-  for (const RiddenVehicle& one : study.controlled) controlled.push_back(ridden_json(one));
+  for (const RiddenVehicle& one : study.controlled) controlled.push_back(ridden_json(one, bounded));
   for (const TradeOff& point : study.held)
     held.push_back(Value::object({{"drive", point.setting},
                                   {"weighted_acceleration", point.weighted},
                                   {"tyre_load", point.tyre}}));
   return Value::object({{"plant", study.passive.road.vehicle->set.name},
                         {"ground", study.ground},
-                        {"passive", ridden_json(study.passive)},
+                        {"passive", ridden_json(study.passive, bounded)},
                         {"controlled", std::move(controlled)},
                         {"held", std::move(held)},
                         {"possible", front_json(study.front)},

@@ -204,8 +204,10 @@ DocumentFigure possible_figure(const RideStudy& study) {
   // Every vehicle as a point above the front.
   for (const auto& [ridden, look] : drawn(study)) {
     const RideRoots at = roots(*ridden);
-    panel.series.push_back(
-        point_of(look, at.acceleration / unit.acceleration, at.tyre_force / unit.tyre_force));
+    FigureSeries point =
+        point_of(look, at.acceleration / unit.acceleration, at.tyre_force / unit.tyre_force);
+    if (!ridden->in_range) point.label += " (outside)";
+    panel.series.push_back(std::move(point));
   }
   return {"possible",
           "What is possible on this road",

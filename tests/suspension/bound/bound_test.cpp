@@ -350,6 +350,30 @@ TEST_CASE("a car that stands until the road moves has the bound and the optimum 
       {.current_min = 0, .current_max = 1, .velocity = 1})));
 }
 
+TEST_CASE("a range holds the forces that it was made of, and no others") {
+  const auto lopsided = [](const DamperInput& at) {
+    return (100 + 1000 * at.current) * at.velocity + 2000 * at.current + 500 * at.displacement;
+  };
+  const RangeLimits limits{.current_min = 0, .current_max = 1, .velocity = 2, .displacement = 0.1};
+  for (const bool with_displacement : {true, false}) {
+    RangeLimits these = limits;
+    if (!with_displacement) these.displacement = 0;
+    const ForceRange range = force_range("lopsided", lopsided, these);
+    const auto holds = [&](const DamperInput& at, double more) {
+      return range.holds(at.displacement, at.velocity, lopsided(at) + more, 1e-6);
+    };
+    for (const double x : {-0.07, 0.0, 0.02})
+      for (const double v : {-1.99, -0.33, -1e-3, 0.0, 0.01, 1.5})
+        for (const double current : {0.0, 0.4, 1.0})
+          if (with_displacement || x == 0) CHECK(holds({x, v, current}, 0));
+    CHECK(holds({0, 0.5, 1}, -100));
+    CHECK(!holds({0, 0.5, 1}, 100));
+    CHECK(holds({0, 0.5, 0}, 100));
+    CHECK(!holds({0, 0.5, 0}, -100));
+    CHECK(!holds({0, -0.5, 0.5}, -1000));  // held at 0.5 A, the springs bearing its 1000 N
+  }
+}
+
 TEST_CASE("where the optimum goes beyond the range, nothing is proven" *
           doctest::test_suite("long")) {
   // Of a random car the certificate would have been 1.83 beside an optimum of 0.45.

@@ -201,6 +201,29 @@ TEST_CASE("with a bound the page shows what is possible, and no controller is be
   CHECK(page.sections[1].tables[0].rows.size() == 5);  // passive, two controllers, optimum, bound
 }
 
+TEST_CASE("a ride whose forces leave the range is not among those that its bound speaks of") {
+  RideStudyOptions options = small_study();
+  options.controllers = {"skyhook"};
+  options.frequencies = {20};
+  options.gains = {.settling = 0.5, .counted = 0.5, .chirp = 1};
+  options.road_duration = 0.05;
+  options.bound = true;
+  const auto table = [&](const std::string& against) {
+    options.against = against;
+    const RideStudy study = study_ride(options);
+    const Value json = ride_json(study);
+    CHECK(json.find("controlled")->items()[0].find("in_range")->as_bool());
+    CHECK(json.find("passive")->find("in_range")->as_bool() == study.passive.in_range);
+    return ride_document(study).sections[1].tables[0];
+  };
+  const DocumentTable usual = table("viscous,damping=1500"), soft = table("viscous,damping=200");
+  CHECK(usual.rows[0][0] == "viscous, 1500 N*s/m");
+  CHECK(usual.note.find("Outside") == std::string::npos);
+  CHECK(soft.rows[0][0] == "viscous, 200 N*s/m (outside)");
+  CHECK(soft.rows[1][0] == "skyhook");
+  CHECK(soft.note.find(" Outside: its forces leave that range") != std::string::npos);
+}
+
 TEST_CASE("rides that cannot be are refused") {
   const auto refusal = [](auto change) {
     RideStudyOptions options = small_study();

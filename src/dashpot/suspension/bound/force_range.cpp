@@ -67,6 +67,27 @@ ForceCurves ForceRange::at(double displacement) const noexcept {
   return {velocity, side, k, std::clamp((displacement - from) / apart, 0.0, 1.0)};
 }
 
+bool ForceRange::holds(double x, double v, double force, double slack) const noexcept {
+  // The displacements on either side of x, and the velocities on either side of v.
+  const std::size_t n = place_of(velocity, v);
+  const double along = (v - velocity[n]) / (velocity[n + 1] - velocity[n]);
+  const auto mixed = [&](const auto& at, std::size_t node) {
+    if (sides.empty()) return at(*this, node);
+    const RangeSide& side = x <= 0 ? sides.front() : sides.back();
+    const std::size_t k = place_of(side.displacement, x);
+    const double from = side.displacement[k], to = side.displacement[k + 1];
+    return std::lerp(at(side, k, node), at(side, k + 1, node), (x - from) / (to - from));
+  };
+  const auto edge = [&](const auto& at) {
+    return std::lerp(mixed(at, n), mixed(at, n + 1), along);
+  };
+
+  const double beside_spring = force - stiffness * x;
+  const auto least = [](const auto& table, auto... place) { return table.least(place...); };
+  const auto greatest = [](const auto& table, auto... place) { return table.greatest(place...); };
+  return beside_spring >= edge(least) - slack && beside_spring <= edge(greatest) + slack;
+}
+
 ForceRange damping_range(double least, double greatest) {
   if (!(least <= greatest))
     throw Error("damping range",

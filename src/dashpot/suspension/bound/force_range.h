@@ -88,6 +88,8 @@ struct ForceRange {
   /// between them lie all forces, also where soft and hard change places.
   double least(std::size_t node) const noexcept { return std::min(soft[node], hard[node]); }
   double greatest(std::size_t node) const noexcept { return std::max(soft[node], hard[node]); }
+  /// Whether the damper's force, N, spring and all, lies within, or beyond by `slack` at most.
+  bool holds(double displacement, double velocity, double force, double slack) const noexcept;
 };
 
 /// Any damping in between, N*s/m. Throws Error where least > greatest.

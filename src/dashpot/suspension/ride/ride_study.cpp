@@ -198,6 +198,19 @@ StrutMotion greatest_motion(const RideStudy& study) {
   return greatest;
 }
 
+/// Whether a ride's forces lie in a range, but for roundings.
+bool lies_within(const ForceRange& range, const SimulatedRun& run) {
+  const Record& record = run.trace.record;
+  const std::string& strut = run.vehicle->set.plant.struts.front().name;
+  const std::vector<double>&x = record.channel(strut + "_deflection").samples,
+        &v = record.channel(strut + "_velocity").samples,
+        &force = record.channel(strut + "_force").samples;
+  constexpr double kRounding = 1e-9;
+  for (std::size_t k = 0; k < force.size(); ++k)
+    if (!range.holds(x[k], v[k], force[k], kRounding * (1 + std::abs(force[k])))) return false;
+  return true;
+}
+
 /// The bounds are for rides that move the damper up to this many times as far and as fast as the
 /// study's own rides did, and the optima where these go further.
 constexpr double kMotionFactor = 2;
@@ -212,6 +225,8 @@ void add_bound(RideStudy& study, const Vehicle& vehicle, const GroundMotion& roa
     const ForceRange range = possible_forces(
         vehicle, {kMotionFactor * ridden.travel, kMotionFactor * ridden.speed}, kBound);
     study.bounded = motion_of(range);
+    study.passive.in_range = lies_within(range, study.passive.road);
+    for (RiddenVehicle& one : study.controlled) one.in_range = lies_within(range, one.road);
     study.front = front_of_ride(plant, road, range, reference,
                                 {.duration = options.road_duration,
                                  .starts = {},

@@ -33,6 +33,10 @@ struct RiddenVehicle {
   std::vector<GainPoint> sines;  ///< one per frequency
   std::vector<GainPoint> chirp;  ///< over the same range, finely
   SimulatedRun road, step;
+  /// Whether the bounds, where there are any, speak of its ride on the road: its damper's forces
+  /// lie in their range. Another damper's need not, nor those of the same damper at a current at
+  /// which it has another force at rest, since the springs bear that from the start.
+  bool in_range = true;
   const std::string& name() const { return road.name; }
 };
 
