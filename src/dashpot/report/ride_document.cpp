@@ -80,6 +80,14 @@ std::string possible_note(const RideStudy& study) {
             (within.size() > 1 ? " and " + within.back() : "") +
             " either way, twice what it did in these rides";
   note += ". - : none could be proven.";
+
+  // What the bounds do not tell, and of whom they do not speak.
+  constexpr double kTelling = 0.5;  // of the optimum, root mean squares
+  for (const auto& [best, aim] :
+       {std::pair{&study.front.front(), "body"}, std::pair{&study.front.back(), "tyre"}})
+    if (best->proven && std::sqrt(best->bound) < kTelling * std::sqrt(best->optimum))
+      note += std::string(" The ") + aim +
+              "'s bound is less than half of its optimum: it tells little of what is possible.";
   if (!std::ranges::all_of(all_of(study), &RiddenVehicle::in_range))
     note +=
         " Outside: its forces leave that range (another damper, or the same one with a force at "

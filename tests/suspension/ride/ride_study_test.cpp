@@ -224,6 +224,24 @@ TEST_CASE("a ride whose forces leave the range is not among those that its bound
   CHECK(soft.note.find(" Outside: its forces leave that range") != std::string::npos);
 }
 
+TEST_CASE("a bound far below its optimum is said to tell little") {
+  RideStudyOptions options = small_study();
+  options.controllers = {"skyhook"};
+  options.frequencies = {20};
+  options.gains = {.settling = 0.5, .counted = 0.5, .chirp = 1};
+  options.road_duration = 0.05;
+  RideStudy study = study_ride(options);
+  ClairvoyantBound best{
+      .index = {1, 0}, .bound = 0.3, .optimum = 1, .squares = {1, 1}, .shares = {}};
+  best.proven = true;
+  study.front = {best, best};
+  study.front.back().index = {0, 1};
+  study.front.front().bound = 0.2;  // of squares: the root is 0.45 of the optimum's
+  const std::string note = ride_document(study).sections[1].tables[0].note;
+  CHECK(note.find("The body's bound is less than half of its optimum") != std::string::npos);
+  CHECK(note.find("The tyre's bound") == std::string::npos);
+}
+
 TEST_CASE("rides that cannot be are refused") {
   const auto refusal = [](auto change) {
     RideStudyOptions options = small_study();
