@@ -350,6 +350,24 @@ TEST_CASE("a car that stands until the road moves has the bound and the optimum 
       {.current_min = 0, .current_max = 1, .velocity = 1})));
 }
 
+TEST_CASE("the optimum is not behind a steady current that moves the force at rest") {
+  // Before, it was 1.19 m/s^2 where the current of 0 A reaches 0.23: the demands had to turn with
+  // the motion to keep that current.
+  const StaticForce lopsided = [](const DamperInput& at) {
+    return (100 + 1000 * at.current) * at.velocity + 2000 * at.current;
+  };
+  const GroundPointer ground = road();
+  const double duration = 0.2;
+  const ForceRange range =
+      force_range("lopsided", lopsided, {.current_min = 0, .current_max = 1, .velocity = 3});
+  const ClairvoyantBound best = clairvoyant_bound(light_car(), *ground, range, {1, 0},
+                                                  {.duration = duration, .iterations = 1});
+  const RideSquares held =
+      ride(light_car(), *ground, damping_range(100, 100), "constant", {}, duration);
+  CHECK(best.optimum <= 1.001 * held.acceleration);
+  CHECK(best.bound <= best.optimum);
+}
+
 TEST_CASE("a range holds the forces that it was made of, and no others") {
   const auto lopsided = [](const DamperInput& at) {
     return (100 + 1000 * at.current) * at.velocity + 2000 * at.current + 500 * at.displacement;

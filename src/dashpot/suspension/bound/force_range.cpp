@@ -150,6 +150,21 @@ class ForceSamples {
     return ends;
   }
 
+  /// Whether the currents move the force at rest by more than its jump there, and by no small part
+  /// of what they do at a velocity: then the forces of a steady current do not turn with the
+  /// motion.
+  bool leans(double velocity) const {
+    ForceEnds rest;
+    for (const double current : currents_) {
+      const double force = force_({0, 0, current});
+      rest.include({force, force});
+    }
+    constexpr double kOfJump = 0.5, kOfAll = 0.1;
+    const auto width = [](const ForceEnds& ends) { return ends.greatest - ends.least; };
+    return width(rest) > kOfJump * width(at(0, 1, 0, 0)) &&
+           width(rest) > kOfAll * width(at(velocity, 1, 0, 0));
+  }
+
   bool has_displacement() const { return distances_.size() > 1; }
   const std::vector<double>& distances() const { return distances_; }
   double travel() const { return distances_.back(); }
@@ -233,11 +248,13 @@ double narrowest_stiffness(const ForceSamples& samples, const std::vector<double
 
 using EndsByVelocity = std::vector<ForceEnds>;
 
-void add_curves(const std::vector<double>& velocity, const EndsByVelocity& ends,
+/// Soft is what resists less, either way; of a damper that leans, the least force.
+void add_curves(const std::vector<double>& velocity, const EndsByVelocity& ends, bool leans,
                 std::vector<double>& soft, std::vector<double>& hard) {
   for (std::size_t k = 0; k < velocity.size(); ++k) {
-    soft.push_back(velocity[k] < 0 ? ends[k].greatest : ends[k].least);
-    hard.push_back(velocity[k] < 0 ? ends[k].least : ends[k].greatest);
+    const bool turned = velocity[k] < 0 && !leans;
+    soft.push_back(turned ? ends[k].greatest : ends[k].least);
+    hard.push_back(turned ? ends[k].least : ends[k].greatest);
   }
 }
 
@@ -278,7 +295,8 @@ class EdgeTable {
     RangeSide out;
     for (std::size_t k = 0; k < places_.size(); ++k) {
       out.displacement.push_back(side_ * samples_.distances()[places_[k]]);
-      add_curves(velocity_, ends_[k], out.soft.emplace_back(), out.hard.emplace_back());
+      add_curves(velocity_, ends_[k], samples_.leans(velocity_.back()), out.soft.emplace_back(),
+                 out.hard.emplace_back());
     }
     if (side_ > 0) return out;
     for (auto* const list : {&out.soft, &out.hard}) std::ranges::reverse(*list);
@@ -343,7 +361,7 @@ void set_sides(ForceRange& range, const ForceSamples& samples) {
       for (std::size_t k = 0; k < ends.size(); ++k) widest[k].include(ends[k]);
     range.sides.push_back(table.side());
   }
-  add_curves(range.velocity, widest, range.soft, range.hard);
+  add_curves(range.velocity, widest, samples.leans(range.velocity.back()), range.soft, range.hard);
 }
 
 /// A range of damping, where all forces are in proportion to the velocity.
@@ -396,7 +414,8 @@ ForceRange force_range(const std::string& name, const StaticForce& force,
   } else {
     EdgeTable table(samples, range.velocity, 0, 1, {0});
     table.make_room();
-    add_curves(range.velocity, table.ends().front(), range.soft, range.hard);
+    add_curves(range.velocity, table.ends().front(), samples.leans(range.velocity.back()),
+               range.soft, range.hard);
   }
 
   // The damper itself reaches less: its least and greatest force at one displacement.
