@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "dashpot/base/text.h"
 #include "dashpot/report/front_parts.h"
