@@ -22,16 +22,22 @@ std::string declared_before() {
         "InverseModel", "LawModel",        "LawParameters",  "Mlp",           "Observer",
         "PlantFilter",  "PolynomialError", "RootError",      "SearchError"})
     code += "typedef struct " + std::string(type) + " { double x; } " + type + ";\n";
-  for (const char* size : {"CELL_MOST_CURRENTS",  "CELL_MOST_FEATURES",   "CELL_MOST_INPUTS",
-                           "CELL_MOST_LAG",       "CELL_MOST_WIDTH",      "DAMPER_INPUTS",
-                           "DAMPER_PLANT_STATES", "DAMPER_SAMPLE_TIME",   "DAMPER_STATE_SIZE",
-                           "DAMPER_SENSORS",      "DAMPER_DRIVES",        "DAMPER_STRUTS",
-                           "FILTER_MOST",         "FILTER_MOST_SENSORS",  "FILTER_MOST_INPUTS",
-                           "FILTER_MOST_DAMPER",  "FILTER_MOST_DAMPERS",  "GATED_MOST_GATES",
-                           "GATED_MOST_SIGNALS",  "INVERSE_STATES",       "INVERSE_TAPS",
-                           "LAW_MOST_STATES",     "MLP_MOST_WIDTH",       "NARX_MOST_INPUTS",
-                           "PASSIVE_MOST_INPUTS", "PASSIVE_MOST_NEURONS", "PASSIVE_MOST_SPRINGS",
-                           "STRUT_STATE",         "SUGENO_MOST_INPUTS",   "SUGENO_MOST_MEMBERSHIPS",
+  for (const char* size : {"CELL_MOST_CURRENTS",   "CELL_MOST_FEATURES",
+                           "CELL_MOST_INPUTS",     "CELL_MOST_LAG",
+                           "CELL_MOST_WIDTH",      "DAMPER_INPUTS",
+                           "DAMPER_PLANT_STATES",  "DAMPER_SAMPLE_TIME",
+                           "DAMPER_STATE_SIZE",    "DAMPER_SENSORS",
+                           "DAMPER_DRIVES",        "DAMPER_STRUTS",
+                           "FILTER_MOST",          "FILTER_MOST_SENSORS",
+                           "FILTER_MOST_INPUTS",   "FILTER_MOST_DAMPER",
+                           "FILTER_MOST_DAMPERS",  "FILTER_MOST_MEMORY",
+                           "FILTER_KEPT",          "GATED_MOST_GATES",
+                           "GATED_MOST_SIGNALS",   "INVERSE_STATES",
+                           "INVERSE_TAPS",         "LAW_MOST_STATES",
+                           "MLP_MOST_WIDTH",       "NARX_MOST_INPUTS",
+                           "PASSIVE_MOST_INPUTS",  "PASSIVE_MOST_NEURONS",
+                           "PASSIVE_MOST_SPRINGS", "STRUT_STATE",
+                           "SUGENO_MOST_INPUTS",   "SUGENO_MOST_MEMBERSHIPS",
                            "SUGENO_MOST_RULES"})
     code += "#define " + std::string(size) + " 2\n";
   return code;
