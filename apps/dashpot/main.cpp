@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fcntl.h>
+#include <filesystem>
 #include <initializer_list>
 #include <iterator>
 #include <malloc.h>

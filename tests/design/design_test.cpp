@@ -1,5 +1,6 @@
 #include "dashpot/design/design.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "dashpot/base/text.h"

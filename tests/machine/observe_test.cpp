@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/damper/law_list.h"

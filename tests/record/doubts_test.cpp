@@ -1,5 +1,6 @@
 #include "dashpot/record/doubts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

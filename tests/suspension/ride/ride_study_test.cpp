@@ -152,7 +152,8 @@ TEST_CASE("the points of a ride's trade-off are told apart beyond the colours th
   while (study.controlled.size() < 14) study.controlled.push_back(study.controlled.front());
   std::set<std::pair<std::string, FigureSeries::Mark>> looks;
   std::size_t points = 0;
-  for (const FigureSeries& series : trade_off_figure(study).panels.front().series)
+  const DocumentFigure figure = trade_off_figure(study);
+  for (const FigureSeries& series : figure.panels.front().series)
     if (series.width == 5) {
       looks.emplace(series.colour, series.mark);
       ++points;
