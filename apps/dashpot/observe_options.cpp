@@ -8,12 +8,13 @@
 namespace dashpot::cli {
 namespace {
 
-/// "30@0.01": a standard deviation and a time, both above 0.
+/// "30@0.01": a standard deviation and a time, both above 0; `alone`: the time of "30".
 std::pair<double, double> process_of(const std::string& option, const std::string& word,
-                                     const std::string& right) {
+                                     const std::string& right,
+                                     std::optional<double> alone = std::nullopt) {
   const std::size_t at = word.find('@');
   const auto deviation = parse_number(word.substr(0, at));
-  const auto memory = at == std::string::npos ? std::nullopt : parse_number(word.substr(at + 1));
+  const auto memory = at == std::string::npos ? alone : parse_number(word.substr(at + 1));
   if (!deviation || !memory || !(*deviation > 0) || !(*memory > 0))
     throw UsageError(option, "is '" + word + "'", right);
   return {*deviation, *memory};
@@ -44,10 +45,9 @@ Option velocity_shift_option(std::string& word) {
 std::vector<ForceError> force_errors(const std::vector<std::string>& words) {
   std::vector<ForceError> errors;
   for (const std::string& word : words) {
-    const bool stays = word.find('@') == std::string::npos;
-    const auto [deviation, memory] =
-        process_of("--force-error", stays ? word + '@' + format_number(kStayingError) : word,
-                   "newtons @ seconds, as 30@0.01; newtons alone where the error stays");
+    const auto [deviation, memory] = process_of(
+        "--force-error", word, "newtons @ seconds, as 30@0.01; newtons alone where the error stays",
+        kStayingError);
     errors.push_back({deviation, memory});
   }
   return errors;

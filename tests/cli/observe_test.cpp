@@ -97,6 +97,8 @@ TEST_CASE("bench --in and observe: rides of a car, and the force that no sensor 
       run_dashpot("observe " + model + " --in " + car + ' ' + rides + "/ride_1.csv").output,
       "tyre_stiffness: is unknown"));
   CHECK(contains(run_dashpot(with + ",x@1").output, "--force-error: is 'x@1'; newtons @ seconds"));
+  CHECK(contains(run_dashpot(with + ",x").output, "--force-error: is 'x'; newtons @ seconds"));
+  CHECK(contains(run_dashpot(with + ",20").output, "N, which stay (--force-error 5@0.01,20)"));
   CHECK(contains(run_dashpot(with + " --velocity-shift 4").output,
                  "--velocity-shift: is '4'; m/s @ seconds, as 0.004@0.015"));
   CHECK(contains(run_dashpot(with + " --velocity-shift 0.004@0.02 --output " + seen).output,
