@@ -446,7 +446,8 @@ static inline void filter_move_column(const PlantFilter* f, const FilterDamper* 
 
 /* A step of damper d from its motion `over->first` along a way to where the plant arrives under the
  * forces at the start: its force there with its errors, and what depends on what. Its memory, which
- * costs most, goes along this way once and for all. */
+ * costs most, is brought along this way, and once the sensors were looked at along what they told:
+ * filter_remember(). */
 static inline double filter_look(const PlantFilter* f, int d, const double* c, double* s,
                                  FilterDamper* over) {
   double reach[FILTER_MOST_DAMPER + 2], z[FILTER_MOST_DAMPER + (3 * FILTER_MOST_MEMORY)];
