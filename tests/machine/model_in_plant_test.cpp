@@ -112,7 +112,7 @@ TEST_CASE("in plant: models that cannot stand there are refused with what could"
     return message_of([&] { require_model_for_plant(model, setup, "--models"); });
   };
   CHECK(contains(refused("family_gated", pushed_setup()),
-                 "'family_gated' is a model of many dampers, and a plant holds one"));
+                 "'family_gated' is a model of many dampers that differ by their drawings"));
   CHECK(contains(refused("mean", pushed_setup()), "is made of models that were fitted to a"));
   CHECK(contains(refused("passive_netwrok", pushed_setup()), "passive_network"));
   InPlantSetup setup = pushed_setup();
@@ -120,7 +120,9 @@ TEST_CASE("in plant: models that cannot stand there are refused with what could"
   CHECK(contains(refused("passive_network", setup),
                  "laws alone are identified on a road that nothing measures"));
   setup = pushed_setup();
-  setup.model = &find_machine("half_car", "test");
-  setup.known.clear();
-  CHECK(contains(refused("passive_network", setup), "has 2 dampers"));
+  setup.inputs.push_back({"behind", {PlantInput::Ground, 0}});
+  setup.inputs.back().follows = "push";
+  CHECK(contains(refused("passive_network", setup),
+                 "what makes a bench of the plant, as 'passive_network' needs, knows no road that "
+                 "follows"));
 }

@@ -6,6 +6,7 @@
 
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/machine/model_in_plant.h"
@@ -288,10 +289,13 @@ TEST_CASE("several dampers: kinds that nobody stated are told apart" *
           doctest::test_suite("long")) {
   const auto rides = rides_with_weak_rear(half_car(), 5);
   InPlantOptions options{.starts = 2, .grade = ""};
+  options.network.members = 1;
+  options.network.epochs = 300;
   std::vector<std::string> stages;
   options.monitor.on_progress = [&](const Progress& progress) { stages.push_back(progress.stage); };
-  const std::vector<InPlantFit> fits = identify_in_plant(
-      std::vector<std::string>{"tanh_kwok", "tanh_guo"}, half_car(), rides, options);
+  const std::vector<InPlantFit> fits =
+      identify_in_plant(std::vector<std::string>{"tanh_kwok", "tanh_guo", "hysteresis_network"},
+                        half_car(), rides, options);
   options.monitor = {};
   const InPlantReport& report = fits[0].report;
   REQUIRE(report.kinds.size() == 2);
@@ -311,6 +315,25 @@ TEST_CASE("several dampers: kinds that nobody stated are told apart" *
   CHECK(std::ranges::count_if(fits[1].report.warnings, [](const std::string& warning) {
           return contains(warning, "the dampers are not alike");
         }) == 1);
+
+  // A bank learns each of them along the better law, in the plant as that has found it.
+  const InPlantReport& bank = fits[2].report;
+  REQUIRE(bank.kinds.size() == 2);
+  CHECK(bank.kinds[1].struts == std::vector<std::size_t>{1});
+  CHECK_FALSE(has_interval(found_of(bank.plant, "mass")));
+  const auto strength = [&](std::size_t kind) {
+    std::vector<DamperInput> motion;
+    std::vector<double> time;
+    for (const double velocity : {0.2, -0.2})
+      for (int k = 0; k < 40; ++k) {
+        time.push_back(kRideStep * static_cast<double>(time.size()));
+        motion.push_back({velocity * kRideStep * k, velocity, 2});
+      }
+    const std::vector<double> force = free_run(*bank.kinds[kind].model, motion, time).force;
+    return force[39] - force[79];
+  };
+  CAPTURE(strength(0));
+  CHECK_CLOSE(strength(1), strength(0) * 2 / 3, 0.1, 0);
 
   // The plant as it was found says which is which.
   const InPlantSetup found = as_found(half_car(), report);

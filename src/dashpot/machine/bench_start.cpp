@@ -115,26 +115,31 @@ ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecordin
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
   const Plant plant = make_plant(*setup.model, setup.known);
   const double damping = usual_dashpot(DrivenPlant(plant, inputs));
-  const std::vector<double>& row = plant.struts.front().row;
+  const std::size_t dampers = plant.struts.size();
 
-  // The model's force without that of the dashpot which stands in its place, as a measured input.
-  std::vector<std::vector<double>> force;
-  for (std::size_t r = 0; r < fitted.size(); ++r) {
-    const DamperTrace& trace = along[r].dampers.front();
-    const auto first = static_cast<std::size_t>(setup.skip / fitted[r].sample_time);
-    force.emplace_back();
-    for (std::size_t k = first; k < first + fitted[r].samples; ++k)
-      force.back().push_back(trace.force[k] - damping * trace.velocity[k]);
-  }
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (row[i] == 0) continue;
-    const std::string channel = "force of a model on " + plant.coordinates[i].name;
+  // The models' forces without those of the dashpots that stand in their place.
+  std::vector<std::vector<std::vector<double>>> force(fitted.size());  // of each damper
+  for (std::size_t r = 0; r < fitted.size(); ++r)
+    for (const DamperTrace& trace : along[r].dampers) {
+      const auto first = static_cast<std::size_t>(setup.skip / fitted[r].sample_time);
+      force[r].emplace_back();
+      for (std::size_t k = first; k < first + fitted[r].samples; ++k)
+        force[r].back().push_back(trace.force[k] - damping * trace.velocity[k]);
+    }
+
+  // Together they push each coordinate as a measured input does.
+  for (std::size_t i = 0; i < plant.coordinates.size(); ++i) {
+    const auto is_pushed = [i](const Strut& strut) { return strut.row[i] != 0; };
+    if (std::ranges::none_of(plant.struts, is_pushed)) continue;
+    const std::string channel = "force of models on " + plant.coordinates[i].name;
     setup.inputs.push_back({channel, {PlantInput::Force, i}});
     for (std::size_t r = 0; r < fitted.size(); ++r) {
-      std::vector<double> pushes;
-      for (const double newton : force[r]) pushes.push_back(-row[i] * newton);
+      std::vector<double> pushes(fitted[r].samples);
+      for (std::size_t d = 0; d < dampers; ++d)
+        for (std::size_t k = 0; k < pushes.size(); ++k)
+          pushes[k] -= plant.struts[d].row[i] * force[r][d][k];
       fitted[r].channels.push_back(
-          {.name = channel, .unit = "N", .samples = std::move(pushes), .origin = "modelled"});
+          {.name = channel, .unit = "", .samples = std::move(pushes), .origin = "modelled"});
     }
   }
 
@@ -149,8 +154,11 @@ ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecordin
                                     .is_straight = true,
                                     .seeks_faults = false});
   for (std::size_t r = 0; r < fitted.size(); ++r)
-    for (std::size_t k = 0; k < force[r].size(); ++k)
-      observed.recordings[r].quantities[0].value[k] += force[r][k];
+    for (std::size_t d = 0; d < dampers; ++d) {
+      std::vector<double>& told =
+          observed.recordings[r].quantities[damper_quantities(d, dampers).force].value;
+      for (std::size_t k = 0; k < told.size(); ++k) told[k] += force[r][d][k];
+    }
   return observed;
 }
 

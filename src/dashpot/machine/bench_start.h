@@ -23,9 +23,9 @@ ObserveReport observe_without_law(InPlantSetup setup, const std::vector<double>&
                                   const std::vector<PlantRecording>& fitted,
                                   const InPlantOptions& options);
 
-/// The same in a plant whose numbers are known, beside the force that some model of the damper has
-/// in free run (`along`, whole recordings): its errors come and go, and how large they are is that
-/// under which the sensors are most likely. The forces that are told hold the model's.
+/// The same in a plant whose numbers are known, beside the forces that some models of the dampers
+/// have in free run (`along`, whole recordings): their errors come and go, and how large they are
+/// is that under which the sensors are most likely. The forces that are told hold the models'.
 ObserveReport observe_beside_force(InPlantSetup setup, std::vector<PlantRecording> fitted,
                                    const std::vector<InPlantTrace>& along,
                                    const InPlantOptions& options);

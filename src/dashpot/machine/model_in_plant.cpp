@@ -32,19 +32,19 @@ double half_width(std::span<const double> samples) {
   return (high - low) / 2;
 }
 
-/// How large the damper's motion and force are.
+/// How large the dampers' motion and force are.
 DataScale scale_of(const std::vector<InPlantTrace>& traces) {
   DataScale scale{.force = 0, .stroke = 0, .speed = 0, .drive = {INFINITY, -INFINITY, false, 1}};
-  for (const InPlantTrace& trace : traces) {
-    const DamperTrace& damper = trace.dampers.front();
-    scale.force = std::max(scale.force, half_width(damper.force));
-    scale.stroke = std::max(scale.stroke, half_width(damper.deflection));
-    scale.speed = std::max(scale.speed, half_width(damper.velocity));
-    const auto [low, high] = std::ranges::minmax(damper.current);
-    scale.drive.varies |= high > low;
-    scale.drive.low = std::min(scale.drive.low, low);
-    scale.drive.high = std::max(scale.drive.high, high);
-  }
+  for (const InPlantTrace& trace : traces)
+    for (const DamperTrace& damper : trace.dampers) {
+      scale.force = std::max(scale.force, half_width(damper.force));
+      scale.stroke = std::max(scale.stroke, half_width(damper.deflection));
+      scale.speed = std::max(scale.speed, half_width(damper.velocity));
+      const auto [low, high] = std::ranges::minmax(damper.current);
+      scale.drive.varies |= high > low;
+      scale.drive.low = std::min(scale.drive.low, low);
+      scale.drive.high = std::max(scale.drive.high, high);
+    }
   return scale;
 }
 
@@ -118,11 +118,18 @@ struct Round {
   double left = INFINITY;
 };
 
-/// The model as its own trainer finds it from what the sensors tell of the damper.
-FitReport learnt_along(const Round& before, const std::string& model, const InPlantSetup& setup,
-                       const std::vector<PlantRecording>& fitted, const InPlantOptions& options) {
-  const ObserveReport observed =
-      observe_beside_force(before.known, fitted, before.report.traces, options);
+/// Those of the dampers of a kind, of the records of one damper of the plant after the other.
+std::vector<Record> records_of(std::size_t kind, const InPlantSetup& setup,
+                               const std::vector<Record>& all) {
+  std::vector<Record> own;
+  for (std::size_t r = 0; r < all.size(); ++r)
+    if (setup.kinds.at(r % setup.dampers()) == kind) own.push_back(all[r]);
+  return own;
+}
+
+/// The model as its own trainer finds it from what the sensors tell of dampers that are alike.
+FitReport learnt_from(const std::vector<Record>& records, const std::string& model,
+                      const InPlantSetup& setup, const InPlantOptions& options) {
   IdentifyOptions trainer{.allow_active = true,
                           .network = options.network,
                           .seed = options.seed,
@@ -131,7 +138,6 @@ FitReport learnt_along(const Round& before, const std::string& model, const InPl
   if (law_inside(model)) trainer.choices = options.choices;
 
   // A passive network is told that the plant's motions are all that it will see.
-  const std::vector<Record> records = as_bench_records(setup, fitted, observed);
   if (model_info(model).kind == ModelKind::PassiveNetwork)
     return fit_to_these_motions(find_preset(passive_network_presets(), model), records,
                                 setup.drive_unit, trainer);
@@ -159,12 +165,14 @@ LeastSquaresReport plant_anew(const InPlantSetup& setup, const InPlantOptions& o
   return solve(problem, x, solver);
 }
 
-/// Plant and sensors with this damper, fitted anew; no model in the report where they diverge.
-Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round& before,
-                  const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
-                  const DataScale& scale, const PlantCases& cases, const InPlantOptions& options) {
+/// Plant and sensors with these dampers, one of each kind, fitted anew; no model in the report
+/// where they diverge.
+Round with_dampers(const std::vector<std::shared_ptr<const DamperModel>>& dampers,
+                   const Round& before, const InPlantSetup& setup,
+                   const std::vector<PlantRecording>& recordings, const DataScale& scale,
+                   const PlantCases& cases, const InPlantOptions& options) {
   Round now;
-  const PlantResiduals residuals(setup, cases, {damper}, before.plant, scale);
+  const PlantResiduals residuals(setup, cases, dampers, before.plant, scale);
   const LeastSquaresReport solved = plant_anew(setup, options, residuals, before);
   if (!std::isfinite(solved.cost)) {
     now.report.message = "the plant diverges with what was learnt: " + solved.message;
@@ -177,7 +185,9 @@ Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round&
   now.left = left_over(report.sensors, setup);
   report.step_error = residuals.step_error(solved.x, recordings, options.threads);
   report.iterations = solved.iterations;
-  report.kinds = {{"", {0}, damper, before.report.kinds.front().domain}};
+  report.kinds = before.report.kinds;
+  for (std::size_t kind = 0; kind < dampers.size(); ++kind)
+    report.kinds[kind].model = dampers[kind];
   now.known = residuals.setup_at(solved.x);
   now.states = residuals.states_of(solved.x);
   for (std::size_t k = 0; k < solved.x.size(); ++k) {
@@ -190,23 +200,46 @@ Round with_damper(const std::shared_ptr<const DamperModel>& damper, const Round&
   return now;
 }
 
-/// A round: what the sensors tell along the one before, the model that learns from it, the plant
+/// A model of each kind of damper; none, and why.
+struct Learnt {
+  std::vector<std::shared_ptr<const DamperModel>> of_kinds;
+  std::string message;
+};
+
+/// The model as it learns each kind of damper from these records, those of one damper of the plant
+/// after the other.
+Learnt learnt_of_kinds(const std::vector<FoundDamper>& kinds, const std::vector<Record>& records,
+                       const std::string& model, const InPlantSetup& setup,
+                       const InPlantOptions& options) {
+  Learnt learnt;
+  for (const FoundDamper& kind : kinds) {
+    FitReport fit =
+        learnt_from(records_of(learnt.of_kinds.size(), setup, records), model, setup, options);
+    if (!fit.model) return {{}, std::move(fit.message)};
+    if (fit.model->state_size() > kMostDamperStates)
+      return {{},
+              "has " + std::to_string(fit.model->state_size()) + " states, and a plant takes " +
+                  std::to_string(kMostDamperStates)};
+    learnt.of_kinds.push_back(
+        mounted(fit.model, 0.5 * (kind.domain.current_min + kind.domain.current_max)));
+  }
+  return learnt;
+}
+
+/// A round: what the sensors tell along the one before, the models that learn from it, the plant
 /// anew.
 Round next_round(const Round& before, const std::string& model, const InPlantSetup& setup,
                  const std::vector<PlantRecording>& recordings, const DataScale& scale,
                  const PlantCases& cases, const InPlantOptions& options) {
-  const FitReport learnt =
-      learnt_along(before, model, setup, fitted_parts(setup, recordings), options);
+  const std::vector<PlantRecording> fitted = fitted_parts(setup, recordings);
+  const std::vector<Record> records = as_bench_records(
+      setup, fitted, observe_beside_force(before.known, fitted, before.report.traces, options));
+  Learnt learnt = learnt_of_kinds(before.report.kinds, records, model, setup, options);
+  if (!learnt.of_kinds.empty())
+    return with_dampers(learnt.of_kinds, before, setup, recordings, scale, cases, options);
   Round none;
-  none.report.message = learnt.message;
-  if (!learnt.model) return none;
-  if (learnt.model->state_size() > kMostDamperStates) {
-    none.report.message = "has " + std::to_string(learnt.model->state_size()) +
-                          " states, and a plant takes " + std::to_string(kMostDamperStates);
-    return none;
-  }
-  const auto damper = mounted(learnt.model, 0.5 * (scale.drive.low + scale.drive.high));
-  return with_damper(damper, before, setup, recordings, scale, cases, options);
+  none.report.message = std::move(learnt.message);
+  return none;
 }
 
 /// What speaks against the result, in words.
@@ -298,7 +331,7 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
     throw Error(where, "'" + model + "' is made of models that were fitted to a measured force",
                 "a law or a network, as tanh_kwok or passive_network");
   if (kind == ModelKind::Family)
-    throw Error(where, "'" + model + "' is a model of many dampers, and a plant holds one",
+    throw Error(where, "'" + model + "' is a model of many dampers that differ by their drawings",
                 "a law or a network, as tanh_kwok or passive_network; 'dashpot models' lists them");
   if (unmeasured_road(setup))
     throw Error(where,
@@ -306,7 +339,7 @@ void require_model_for_plant(const std::string& model, const InPlantSetup& setup
                     "' is no law, and laws alone are identified on a road that nothing "
                     "measures",
                 "a channel with the road's height, or a law, as tanh_kwok");
-  require_one_damper(setup, "'" + model + "', which is no law,");
+  require_no_follower(setup, "what makes a bench of the plant, as '" + model + "' needs,");
 }
 
 std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models,
@@ -360,10 +393,11 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
                                    : static_cast<double>(INFINITY);
   };
   const InPlantFit law = *std::ranges::min_element(fits, {}, left_by);
+  as_taken = law.report.kinds.size() > setup.kinds.size() ? *with_unlike_dampers(setup) : setup;
   for (const std::string& model : models) {
     if (is_law(model)) continue;
     add_fit(model, law.model, [&](const InPlantOptions& own) {
-      if (law.report.has_models()) return identify_along(model, law, setup, recordings, own);
+      if (law.report.has_models()) return identify_along(model, law, as_taken, recordings, own);
       InPlantReport none;
       none.message = "no law could be fitted before it: " + law.report.message;
       return none;

@@ -12,7 +12,7 @@ namespace dashpot {
 // Models of any kind as the damper of a plant. Laws are fitted in free run (in_plant.h). The
 // numbers of networks, hybrids and whatever else learns on a bench are too many for that, and each
 // kind has a trainer of its own. So the plant becomes a bench: once a law was fitted in it, the
-// sensors tell what the damper did and which force it had, and the trainer learns from that
+// sensors tell what each damper did and which force it had, and the trainer learns from that
 // (docs/decisions/027-a-plant-is-a-bench-for-networks.md).
 
 /// The law along which a model learns where no law is asked for.
@@ -33,7 +33,7 @@ struct InPlantFit {
 };
 
 /// Throws Error(where, ...) at a name that no model has, at a model of many dampers, and at one
-/// that is no law where nothing measures the road or the plant has several dampers.
+/// that is no law where nothing measures the road or a road follows another one.
 void require_model_for_plant(const std::string& model, const InPlantSetup& setup,
                              const std::string& where);
 
@@ -48,7 +48,7 @@ std::vector<InPlantFit> identify_in_plant(const std::vector<std::string>& models
                                           const InPlantOptions& options,
                                           PlantFitStore* store = nullptr);
 
-/// What the sensors tell of the damper's motion and force along a fit that found a model, as a
+/// What the sensors tell of the dampers' motion and force along a fit that found a model, as a
 /// bench would have recorded them: of the time that was fitted. `recordings` as that fit had them.
 std::vector<Record> bench_records_along(const InPlantReport& fit, const InPlantSetup& setup,
                                         const std::vector<PlantRecording>& recordings,
