@@ -24,6 +24,8 @@ TEST_CASE("exported C of an observer: the library's estimates in double and sing
     write(std::string("own_drives_") + damper,
           example_half_car_observer(damper, "{front: coil_front, rear: coil_rear}"));
     write(std::string("shifted_") + damper, example_half_car_observer(damper, "coil", 0.004));
+    write(std::string("own_roads_") + damper,
+          example_half_car_observer(damper, "coil", 0, kUnmeasuredRoads));
   }
   write("hysteresis_network", example_network_observer());
   check_that_it_runs(folder, kAsTheTests);

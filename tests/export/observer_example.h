@@ -65,24 +65,31 @@ inline ExampleObserver example_network_observer() {
   return example_observer_in(kExampleCar + "current: coil\n", model, usual_domain(0, 2));
 }
 
-/// The same of a half car with this damper in both struts, on roads that are measured.
+inline const std::string kMeasuredRoads =
+    "  - {channel: road_front, kind: ground, at: front, noise: 0.2 mm}\n"
+    "  - {channel: road_rear, kind: ground, at: rear, noise: 0.2 mm}\n";
+inline const std::string kUnmeasuredRoads =
+    "  - {kind: ground, at: front, class: C, speed: 20 m/s}\n"
+    "  - {kind: ground, at: rear, class: C, speed: 20 m/s}\n";
+
+/// The same of a half car with this damper in both struts.
 inline ExampleObserver example_half_car_observer(const std::string& damper,
                                                  const std::string& drive = "coil",
-                                                 double shift = 0) {
+                                                 double shift = 0,
+                                                 const std::string& roads = kMeasuredRoads) {
   return example_observer_in(
       "plant: half_car\n"
       "parameters: {mass: 690 kg, inertia: 1222 kg*m^2, front_wheel_mass: 40 kg,\n"
       "  rear_wheel_mass: 45 kg, front_stiffness: 17 N/mm, rear_stiffness: 22 N/mm,\n"
       "  front_tyre_stiffness: 200 N/mm, rear_tyre_stiffness: 200 N/mm, front_distance: 1.3 m,\n"
       "  rear_distance: 1.5 m}\n"
-      "inputs:\n"
-      "  - {channel: road_front, kind: ground, at: front, noise: 0.2 mm}\n"
-      "  - {channel: road_rear, kind: ground, at: rear, noise: 0.2 mm}\n"
-      "sensors:\n"
-      "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
-      "  - {channel: rate, quantity: velocity, at: pitch, noise: 0.3 deg/s}\n"
-      "  - {channel: az_rear, quantity: acceleration, at: rear_wheel, noise: 0.5}\n"
-      "  - {channel: level, quantity: deflection, at: front, noise: 0.2 mm}\n"
-      "  - {channel: cell, quantity: damper_force, at: rear, noise: 20 N}\n",
+      "inputs:\n" +
+          roads +
+          "sensors:\n"
+          "  - {channel: az_body, quantity: acceleration, at: body, noise: 0.05}\n"
+          "  - {channel: rate, quantity: velocity, at: pitch, noise: 0.3 deg/s}\n"
+          "  - {channel: az_rear, quantity: acceleration, at: rear_wheel, noise: 0.5}\n"
+          "  - {channel: level, quantity: deflection, at: front, noise: 0.2 mm}\n"
+          "  - {channel: cell, quantity: damper_force, at: rear, noise: 20 N}\n",
       damper, drive, shift);
 }

@@ -733,7 +733,6 @@ PlantObserver make_observer(std::shared_ptr<const DamperModel> damper, const Dom
     scale.offset.push_back(sensor.zero > 0 ? sensor.zero : sensor.noise);
   }
   if (const RoadPrior* road = unmeasured_road(setup)) {
-    require_one_damper(setup, "an observer that runs beside a road that nothing measures");
     if (road->roughness == 0) throw Error("plant, road", "its class is unknown", "class: A to H");
     noise.roughness = road->roughness;
   }
