@@ -474,13 +474,14 @@ TEST_CASE("in plant: filters are found out unasked, and delays stay delays" *
   const InPlantSetup setup = car_setup();
   const auto fit = [&](const auto& sensor) {
     std::vector<PlantRecording> recordings = car_rides();
+    recordings.resize(1);  // what depends on the voltage is fitted above
     for (PlantRecording& recording : recordings)
       for (const PlantSensor& one : setup.sensors) {
         std::vector<double>& samples =
             std::ranges::find(recording.channels, one.channel, &Channel::name)->samples;
         samples = sensor(samples, recording.sample_time);
       }
-    return identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 4, .grade = ""});
+    return identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 2, .grade = ""});
   };
   const InPlantReport filtered = fit([](const std::vector<double>& samples, double sample_time) {
     return behind({40, 2}, samples, sample_time);
