@@ -297,7 +297,7 @@ TEST_CASE("in plant: a sensor behind a filter whose cut-off is found, or told to
   InPlantSetup setup = oscillator_setup();
   setup.sensors[0].finds_cutoff = CutoffRange{};
   const auto fit = [&](const PlantRecording& recording) {
-    return identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 6, .grade = ""});
+    return identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 2, .grade = ""});
   };
   const InPlantReport report = fit(behind_filter(30));
   REQUIRE(report.has_models());

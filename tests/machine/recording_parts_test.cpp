@@ -120,11 +120,11 @@ TEST_CASE("in plant: where a recording begins quietly, starts are looked for whe
 
 TEST_CASE("in plant: a still or a smooth beginning does not lead a fit astray" *
           doctest::test_suite("long")) {
-  const auto waits = [](double t) { return t < 12 || t > 20 ? 0.0 : 1.0; };
-  const auto smooth = [](double t) { return t < 10 ? 0.02 : 1.0; };
+  const auto waits = [](double t) { return t < 6 || t > 10 ? 0.0 : 1.0; };
+  const auto smooth = [](double t) { return t < 5 ? 0.02 : 1.0; };
   for (const std::string law : {"tanh_guo", "bouc_wen"}) {
     CAPTURE(law);
-    CHECK_CLOSE(found_mass(law, pushed_by(waits, 26)), 2, 0.03, 0);
-    CHECK_CLOSE(found_mass(law, pushed_by(smooth, 26)), 2, 0.03, 0);
+    CHECK_CLOSE(found_mass(law, pushed_by(waits, 13)), 2, 0.03, 0);
+    CHECK_CLOSE(found_mass(law, pushed_by(smooth, 13)), 2, 0.03, 0);
   }
 }

@@ -210,11 +210,11 @@ TEST_CASE(
     "several dampers: masses, tyre and forces of a half car whose dampers are of another law" *
     doctest::test_suite("long")) {
   std::vector<PlantRecording> recordings;
-  for (const double voltage : {0.0, 2.0}) recordings.push_back(half_car_ride(voltage, 5));
+  for (const double voltage : {0.0, 2.0}) recordings.push_back(half_car_ride(voltage, 4));
   InPlantSetup setup = half_car();
   setup.skip = 0.2;
   const InPlantReport report =
-      identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 3, .grade = ""});
+      identify_in_plant(find_law("tanh_kwok"), setup, recordings, {.starts = 2, .grade = ""});
   REQUIRE(report.has_models());
   CHECK(report.kinds.size() == 1);  // they are alike
   CHECK_CLOSE(found_of(report.plant, "mass").value, 690, 0.02, 0);
