@@ -324,6 +324,20 @@ TEST_CASE("figures: SVG and PDF of the ranking, loops and trace, with their scri
   CHECK(contains(read_file(paths[0]), "_{model}"));
 }
 
+TEST_CASE("a ring is drawn as a point, not as a line from it to nowhere") {
+  const TemporaryFolder folder;
+  Document document;
+  FigureSeries ring{.label = "odd", .colour = "series-2", .x = {1}, .y = {2}};
+  ring.mark = FigureSeries::Mark::Rings;
+  document.sections.push_back({.name = "one", .title = "One"});
+  document.sections.back().figures.push_back({"rings", "Rings", "", {{"", "x", "y", {ring}}}, 1});
+  const auto paths = write_document_figures(document, folder.path());
+  REQUIRE(!paths.empty());
+  const std::string script =
+      read_file(std::filesystem::path(paths.front()).replace_extension(".gp"));
+  CHECK_MESSAGE(contains(script, "with points pt 6"), script);
+}
+
 TEST_CASE("gnuplot's complaint and its absence are errors") {
   const TemporaryFolder folder;
   GnuplotFigure figure(8, 6);

@@ -1,6 +1,7 @@
 #include "dashpot/report/sweep_report.h"
 
 #include <algorithm>
+#include <set>
 
 #include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"
@@ -118,6 +119,34 @@ TEST_CASE("a sweep's drive is a current, a voltage or a place from 0 to 1, and i
     CHECK(std::ranges::count_if(quantiles.rows, [&](const auto& r) { return r[0] == title; }) == 2);
     CHECK(csv_table(sweep_tables(sweep)[0]).find(column) != std::string::npos);
   }
+}
+
+TEST_CASE("the curves of a sweep are told apart beyond the colours that there are") {
+  Sweep sweep = example_sweep();
+  while (sweep.rides.size() < 14) {
+    sweep.request.controllers.push_back(sweep.request.controllers.back());
+    sweep.request.controllers.back().name += "+";
+    sweep.rides.push_back(sweep.rides[1]);
+  }
+  const Document document = sweep_document(sweep);
+  std::size_t figures = 0;
+  for (const DocumentSection& section : document.sections)
+    for (const DocumentFigure& figure : section.figures) {
+      CAPTURE(figure.title);
+      ++figures;
+      for (const FigurePanel& panel : figure.panels) {
+        std::set<std::pair<std::string, FigureSeries::Mark>> looks;
+        std::size_t labels = 0;
+        for (const FigureSeries& series : panel.series)
+          if (!series.label.empty()) {
+            looks.emplace(series.colour, series.mark);
+            ++labels;
+          }
+        CHECK(labels >= 13);
+        CHECK(looks.size() == labels);
+      }
+    }
+  CHECK(figures == 3);
 }
 
 TEST_CASE("a sweep's tables: a row per ride, inputs and measures with units") {

@@ -39,6 +39,8 @@ GnuplotText style_of(const FigureSeries& series) {
   const GnuplotText colour = "lc rgb " + gnuplot_string(colour_code(series.colour));
   if (series.mark == FigureSeries::Mark::Dots)
     return gnuplot("points pt 7 ps {} {}", 0.1 * series.width, colour);
+  if (series.mark == FigureSeries::Mark::Rings)
+    return gnuplot("points pt 6 ps {} {}", 0.1 * series.width, colour);
   return gnuplot(
       "lines lw {}{} {}", series.width,
       series.mark == FigureSeries::Mark::Dashes ? GnuplotText(" dt (8,5)") : GnuplotText(), colour);

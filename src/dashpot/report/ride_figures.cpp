@@ -63,10 +63,16 @@ FigureSeries dot(const std::string& label, const std::string& colour, double x, 
   return {label, colour, {x}, {y}, FigureSeries::Mark::Dots, size};
 }
 
-/// A vehicle as a point: rings are to dots what dashes are to lines.
+/// The mark of a vehicle's points: rings are to dots what dashes are to lines.
+FigureSeries::Mark point_mark(const FigureSeries& look) {
+  return look.mark == FigureSeries::Mark::Dashes ? FigureSeries::Mark::Rings
+                                                 : FigureSeries::Mark::Dots;
+}
+
+/// A vehicle as a point.
 FigureSeries point_of(const FigureSeries& look, double x, double y) {
   FigureSeries point = dot(look.label, look.colour, x, y, 5);
-  if (look.mark == FigureSeries::Mark::Dashes) point.mark = FigureSeries::Mark::Rings;
+  point.mark = point_mark(look);
   return point;
 }
 
@@ -135,11 +141,11 @@ DocumentFigure chirp_figure(const RideStudy& study) {
         std::tuple{&GainPoint::tyre_deflection, tyre + ", deflection", "gain"}}) {
     FigurePanel panel{title, "frequency, Hz", unit, {}};
 
-    // The chirp as a line, the sines as dots on it.
+    // The chirp as a line, the sines as points on it.
     for (const auto& [ridden, look] : drawn(study)) {
       panel.series.push_back(gain_curve(ridden->chirp, fundamental(signal), kWhole, look));
       FigureSeries sines = gain_curve(ridden->sines, fundamental(signal), kWhole, look);
-      sines.mark = FigureSeries::Mark::Dots;
+      sines.mark = point_mark(look);
       sines.width = 2.5;
       panel.series.push_back(std::move(sines));
     }
@@ -148,7 +154,7 @@ DocumentFigure chirp_figure(const RideStudy& study) {
   return {
       "chirp", "Gains by one chirp",
       "Lines: " + format_number(study.options.gains.chirp) +
-          " s of exponential chirp, read over four periods about each frequency. Dots: by sines.",
+          " s of exponential chirp, read over four periods about each frequency. Points: by sines.",
       std::move(panels), 2};
 }
 

@@ -135,11 +135,6 @@ std::vector<ShownMeasure> main_measures(const Sweep& sweep) {
   return shown;
 }
 
-std::string series_colour(std::size_t controller) {
-  constexpr std::size_t kColours = 6;
-  return "series-" + std::to_string(controller % kColours + 1);
-}
-
 Document sweep_document(const Sweep& sweep) {
   Document document;
   document.title = sweep.request.name;

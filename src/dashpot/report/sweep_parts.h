@@ -25,8 +25,6 @@ std::vector<ShownMeasure> shown_measures(const Sweep& sweep);
 /// Comfort and road holding: weighted acceleration and, where there are tyres, their load index.
 std::vector<ShownMeasure> main_measures(const Sweep& sweep);
 
-std::string series_colour(std::size_t controller);
-
 DocumentSection input_section(const Sweep& sweep);
 DocumentSection ratio_section(const Sweep& sweep);
 DocumentSection quantile_section(const Sweep& sweep);

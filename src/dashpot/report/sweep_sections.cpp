@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/report/ride_parts.h"
 #include "dashpot/report/sweep_parts.h"
 #include "dashpot/report/words.h"
 
@@ -39,9 +40,7 @@ std::vector<std::string> quantile_row(const std::string& first, const std::strin
 }
 
 /// The share of vehicles below each value, as a curve.
-FigureSeries quantile_curve(std::vector<double> values, double factor, const std::string& label,
-                            const std::string& colour) {
-  FigureSeries series{label, colour, {}, {}};
+FigureSeries quantile_curve(std::vector<double> values, double factor, FigureSeries series) {
   const std::vector<double> sorted = sorted_finite(std::move(values));
   const std::size_t points = std::min(sorted.size(), kCurvePoints);
   for (std::size_t k = 0; k < points; ++k) {
@@ -74,12 +73,15 @@ std::vector<Pairs> binned(Pairs pairs) {
 
 /// Median and the middle 90 % of y over x.
 void add_trend(FigurePanel& panel, const std::vector<double>& x, const std::vector<double>& y,
-               const std::string& label, const std::string& colour) {
+               FigureSeries middle) {
   Pairs pairs;
   for (std::size_t k = 0; k < x.size(); ++k)
     if (std::isfinite(y[k])) pairs.emplace_back(x[k], y[k]);
-  FigureSeries middle{label, colour, {}, {}},
-      low{"", colour, {}, {}, FigureSeries::Mark::Dashes, 1}, high = low;
+  middle.width = 2.2;
+  FigureSeries low = middle;
+  low.label = "";
+  low.width = 0.8;
+  FigureSeries high = low;
 
   // One point of each curve per bin, at its middle.
   for (const Pairs& bin : binned(std::move(pairs))) {
@@ -146,7 +148,7 @@ DocumentFigure trend_figure(const Sweep& sweep, const std::vector<Weight>& weigh
   DocumentFigure figure{
       "trends",
       "The inputs that matter most",
-      "Median (line) and 5 and 95 % (dashes) of the vehicles, in bins of equally many.",
+      "Median (thick) and 5 and 95 % (thin) of the vehicles, in bins of equally many.",
       {},
       2};
 
@@ -161,7 +163,7 @@ DocumentFigure trend_figure(const Sweep& sweep, const std::vector<Weight>& weigh
         std::vector<double> values = measure_values(sweep, c, *shown.measure);
         for (double& value : values) value *= shown.factor;
         add_trend(panel, input_values(sweep, weights[i].input), values,
-                  sweep.request.controllers[c].name, series_colour(c));
+                  controller_look(sweep.request.controllers[c].name, c));
       }
       figure.panels.push_back(std::move(panel));
     }
@@ -225,7 +227,7 @@ DocumentSection ratio_section(const Sweep& sweep) {
       table.rows.back().push_back(
           number_text(100 * less / static_cast<double>(ratios.size())) + " %" +
           (ratios.size() < all ? " of " + std::to_string(ratios.size()) : ""));
-      panel.series.push_back(quantile_curve(ratios, 1, name, series_colour(c)));
+      panel.series.push_back(quantile_curve(ratios, 1, controller_look(name, c)));
     }
 
     // Only comfort and road holding are drawn.
@@ -256,7 +258,7 @@ DocumentSection quantile_section(const Sweep& sweep) {
       const std::vector<double> values = measure_values(sweep, c, *shown.measure);
       if (const auto spread = spread_of(values))
         table.rows.push_back(quantile_row(shown.title(), name, *spread, shown));
-      panel.series.push_back(quantile_curve(values, shown.factor, name, series_colour(c)));
+      panel.series.push_back(quantile_curve(values, shown.factor, controller_look(name, c)));
     }
     figure.panels.push_back(std::move(panel));
   }

@@ -160,6 +160,14 @@ TEST_CASE("the points of a ride's trade-off are told apart beyond the colours th
     }
   CHECK(points == 15);
   CHECK(looks.size() == points);
+
+  // The sines of the chirp's figure, too.
+  looks.clear();
+  const DocumentFigure chirp = chirp_figure(study);
+  for (const FigureSeries& series : chirp.panels.front().series)
+    if (series.mark != FigureSeries::Mark::Line && series.mark != FigureSeries::Mark::Dashes)
+      looks.emplace(series.colour, series.mark);
+  CHECK(looks.size() == 15);
 }
 
 TEST_CASE("a ride on a seat is told of the seat and of who sits on it") {
