@@ -45,6 +45,32 @@ TEST_CASE("design report: a line per design, the same in JSON, and a page that n
     CHECK_MESSAGE(text.find(part) != std::string::npos, text);
 }
 
+TEST_CASE("design report: a quantity at several places is told with its place, and once") {
+  const DesignReport report = design(parse_request(R"(
+damper: passenger_car
+at: {current: 2 A, velocity: 0.3 m/s}
+vary: {gap: {from: 0.6 mm, to: 2 mm}, pole_length: {from: 8 mm, to: 40 mm}}
+tolerances: {gap: 0.05 mm}
+constraints:
+  - {quantity: force, min: 1000 N}
+  - {quantity: force, max: 3000 N}
+  - {quantity: force, velocity: 1 m/s, max: 5000 N}
+goals: [{maximise: dynamic_range}, {maximise: dynamic_range, velocity: 1 m/s}]
+)",
+                                                   "request.yaml"),
+                                     {.threads = 1, .points = 8, .generations = 4});
+  REQUIRE(!report.designs.empty());
+  std::vector<std::string> figures;
+  for (const auto& row : sensitivity_table(report, report.designs.front()).rows)
+    figures.push_back(row.front());
+  CHECK(figures == std::vector<std::string>{"dynamic_range at 2 A, 0.3 m/s",
+                                            "dynamic_range at 2 A, 1 m/s",
+                                            "force N at 2 A, 0.3 m/s", "force N at 2 A, 1 m/s"});
+  const DocumentTable designs = design_table(report);
+  CHECK(std::ranges::count(designs.columns, "dynamic_range at 2 A, 1 m/s", &TextColumn::title) ==
+        1);
+}
+
 TEST_CASE("design report: figures in units that people read") {
   CHECK(shown_figure(0.0012, "m") == "1.2 mm");
   CHECK(shown_figure(10e6, "A/m^2") == "10 A/mm^2");

@@ -311,12 +311,6 @@ std::string place_text(const DamperOperation& at) {
   return at.displacement == 0 ? text : text + ", " + format_number(at.displacement) + " m";
 }
 
-/// Fields and sizes are the same at any current and speed.
-std::string place_of(const DesignQuantity& quantity, const DamperOperation& at, ToldBy by) {
-  const bool anywhere = quantity.of_drawing || (at.current == 0 && at.velocity == 0);
-  return (anywhere ? "" : place_text(at)) + (by == ToldBy::Second ? ", by the second model" : "");
-}
-
 }  // namespace
 
 std::size_t DesignVariable::levels() const {
@@ -330,6 +324,12 @@ bool is_of_ride(const DesignQuantity& quantity) { return quantity.name == kRideC
 bool asks_comfort(const DesignRequest& request) {
   const auto asks = [](const auto& asked) { return is_of_ride(*asked.quantity); };
   return std::ranges::any_of(request.goals, asks) || std::ranges::any_of(request.constraints, asks);
+}
+
+std::string place_of(const DesignQuantity& quantity, const DamperOperation& at, ToldBy by) {
+  // Fields and sizes are the same at any current and speed.
+  const bool anywhere = quantity.of_drawing || (at.current == 0 && at.velocity == 0);
+  return (anywhere ? "" : place_text(at)) + (by == ToldBy::Second ? ", by the second model" : "");
 }
 
 std::string describe(const DesignConstraint& c) {

@@ -82,6 +82,8 @@ bool asks_comfort(const DesignRequest& request);
 /// dynamic_range at ..."
 std::string describe(const DesignConstraint& constraint);
 std::string describe(const DesignGoal& goal);
+/// " at 2 A, 0.3 m/s, by the second model"; empty for what is the same everywhere.
+std::string place_of(const DesignQuantity& quantity, const DamperOperation& at, ToldBy by);
 
 /// Whether a request has to say what it is for: next_drawings() asks for no goal.
 enum class Goals { Required, Optional };

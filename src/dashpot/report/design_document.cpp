@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -82,13 +83,28 @@ std::string best_of(const DesignReport& report) {
 struct Assessed {
   const DesignQuantity* quantity;
   std::string text;
+  std::string place;  ///< where the quantity is asked for at several
   std::optional<double> bound;
+
+  /// "force N", "force N at 2 A, 1 m/s"
+  std::string name() const { return with_unit(quantity->name, quantity->unit) + place; }
 };
 std::vector<Assessed> assessed(const DesignRequest& request) {
   std::vector<Assessed> all;
-  for (const DesignGoal& goal : request.goals) all.push_back({goal.quantity, describe(goal), {}});
+  for (const DesignGoal& goal : request.goals)
+    all.push_back({goal.quantity, describe(goal), place_of(*goal.quantity, goal.at, goal.by), {}});
   for (const DesignConstraint& own : request.constraints)
-    all.push_back({own.quantity, describe(own), own.bound});
+    all.push_back(
+        {own.quantity, describe(own), place_of(*own.quantity, own.at, own.by), own.bound});
+
+  // A quantity that is asked for at one place alone needs no name of it.
+  std::vector<bool> has_one_place;
+  for (const Assessed& own : all)
+    has_one_place.push_back(std::ranges::none_of(all, [&](const Assessed& other) {
+      return other.quantity == own.quantity && other.place != own.place;
+    }));
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (has_one_place[k]) all[k].place.clear();
   return all;
 }
 
@@ -126,12 +142,12 @@ DocumentPlane plane_of(const DesignReport& report) {
     plane.names.push_back(design.name + (design.role.empty() ? "" : ", " + design.role));
     plane.outstanding.push_back(!design.role.empty());
   }
-  const auto add = [&](const std::string& name, std::string_view quantity, std::string_view unit,
+  const auto add = [&](const std::string& name, const std::string& quantity, std::string_view unit,
                        std::optional<double> bound, const auto& value, const auto& second) {
     const ShownUnit read = shown_unit(unit);
     DocumentPlane::Quantity axis{
         .name = name,
-        .label = std::string(quantity) + (read.unit.empty() ? "" : " (" + read.unit + ")"),
+        .label = quantity + (read.unit.empty() ? "" : " (" + read.unit + ")"),
         .values = {},
         .second = {},
         .bound = {}};
@@ -148,7 +164,8 @@ DocumentPlane plane_of(const DesignReport& report) {
   const std::vector<Assessed> figures = assessed(request);
   for (std::size_t k = 0; k < figures.size(); ++k)
     add(
-        figures[k].text, figures[k].quantity->name, figures[k].quantity->unit, figures[k].bound,
+        figures[k].text, std::string(figures[k].quantity->name) + figures[k].place,
+        figures[k].quantity->unit, figures[k].bound,
         [&](const Design& design) {
           const std::size_t goals = request.goals.size();
           return k < goals ? design.assessment.goals[k] : design.assessment.constraints[k - goals];
@@ -267,11 +284,14 @@ DocumentTable design_table(const DesignReport& report) {
                              .numeric = true,
                              .priority = 2,
                              .hint = variable.field ? std::string(variable.field->meaning) : ""});
-  for (const DesignGoal& goal : request.goals)
-    table.columns.push_back({.title = with_unit(goal.quantity->name, goal.quantity->unit),
+  const std::vector<Assessed> figures = assessed(request);
+  for (std::size_t k = 0; k < request.goals.size(); ++k) {
+    const DesignGoal& goal = request.goals[k];
+    table.columns.push_back({.title = figures[k].name(),
                              .numeric = true,
                              .hint = describe(goal) + ": " + std::string(goal.quantity->meaning),
                              .descending = goal.maximise});
+  }
   if (!report.second_name.empty())
     table.columns.push_back({.title = "Models differ %",
                              .numeric = true,
@@ -348,14 +368,26 @@ DocumentTable sensitivity_table(const DesignReport& report, const Design& design
          .numeric = true,
          .priority = 1});
 
+  // A row per figure. One with a least and a greatest bound is one figure, except of a model with a
+  // band, whose ends stand for the two.
   const std::vector<Assessed> all = assessed(request);
+  const auto row_name = [&](std::size_t k) {
+    for (std::size_t other = 0; other < all.size(); ++other)
+      if (all[other].name() == all[k].name() &&
+          design.sensitivity->figures[other].drawn != design.sensitivity->figures[k].drawn)
+        return all[k].text;
+    return all[k].name();
+  };
+  std::set<std::string> told;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Sensitivity::Figure& figure = design.sensitivity->figures[k];
+    const std::string name = row_name(k);
+    if (!told.insert(name).second) continue;
     if (std::ranges::all_of(figure.local, [](double value) { return value == 0; }))
       continue;  // no tolerance matters to it
     const DesignQuantity& quantity = *all[k].quantity;
     std::vector<DocumentCell> row{
-        {with_unit(quantity.name, quantity.unit)},
+        {name},
         figure_cell(figure.drawn, quantity.unit),
         {shown(figure.low, quantity.unit) + " ... " + shown(figure.high, quantity.unit)}};
     std::vector<double> shades(row.size(), NAN);
