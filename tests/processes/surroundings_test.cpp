@@ -66,3 +66,17 @@ TEST_CASE("no HOME, a German locale, a terminal of 20 columns" * doctest::test_s
   CHECK(report("-u HOME LANG=de_DE.UTF-8 LC_ALL=de_DE.UTF-8", "locale") == plain);
   CHECK(report("COLUMNS=20", "narrow") == plain);
 }
+
+TEST_CASE("data of Dashpot that are not there are named, not what was looked for in them") {
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "plants");
+  const std::string empty = folder.path().string(), none = empty + "/none";
+  const ProgramResult plants = run_dashpot("simulate", "DASHPOT_DATA=" + empty);
+  CHECK(plants.exit_code == 1);
+  CHECK_MESSAGE(contains(plants.output, "none is found: DASHPOT_DATA may name the folder"),
+                plants.output);
+  const ProgramResult wrong = run_dashpot("simulate", "DASHPOT_DATA=" + none);
+  CHECK(wrong.exit_code == 1);
+  CHECK_MESSAGE(contains(wrong.output, "DASHPOT_DATA: '" + none + "' is no folder"), wrong.output);
+  CHECK(run_dashpot("simulate --list plants", "DASHPOT_DATA=").exit_code == 0);
+}

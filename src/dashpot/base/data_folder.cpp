@@ -34,7 +34,13 @@ std::vector<fs::path> beside_code(std::initializer_list<const char*> ways) {
 /// it; in the source; where it was to be installed.
 std::vector<fs::path> find_roots() {
   std::vector<fs::path> roots = beside_code({"data", "../share/dashpot", "../../share/dashpot"});
-  if (const char* stated = std::getenv("DASHPOT_DATA")) roots.insert(roots.begin(), stated);
+  if (const char* stated = std::getenv("DASHPOT_DATA"); stated && *stated) {
+    // Other data than those that were asked for would be taken without a word.
+    if (std::error_code none; !fs::is_directory(stated, none))
+      throw Error("DASHPOT_DATA", "'" + std::string(stated) + "' is no folder",
+                  "name the folder of Dashpot's data, or unset it");
+    roots.insert(roots.begin(), stated);
+  }
   roots.emplace_back(DASHPOT_DATA_SOURCE_DIR);
   roots.emplace_back(DASHPOT_DATA_INSTALL_DIR);
   return roots;

@@ -8,7 +8,7 @@ namespace dashpot {
 
 /// The folder `kind` of the data that come with Dashpot ("parameters", "dampers"): of
 /// $DASHPOT_DATA, of the installation that the program or library is part of, or of the source that
-/// it was built from.
+/// it was built from. Throws Error where $DASHPOT_DATA is stated and no folder.
 std::filesystem::path data_folder(std::string_view kind);
 
 /// A program that Dashpot starts for work of its own, such as "dashpot-hdf5": in $DASHPOT_PROGRAMS;

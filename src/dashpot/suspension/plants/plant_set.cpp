@@ -209,13 +209,14 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
 
 PlantSet load_plant_set(const std::string& name, const NamedValues& values) {
   // A set of data/plants.
-  std::vector<std::string> known = plant_set_names();
-  if (std::ranges::find(known, name) != known.end()) {
+  const std::vector<std::string> sets = plant_set_names();
+  if (std::ranges::find(sets, name) != sets.end()) {
     const std::filesystem::path path = data_folder("plants") / (name + ".json");
     return parse_plant_set(read_file(path), path.string(), name, values);
   }
 
   // Or a kind of plant, whose table's numbers are no source's.
+  std::vector<std::string> known = sets;
   for (const PlantModel* model : plant_models()) {
     if (model->name == name)
       return {name,
@@ -227,7 +228,10 @@ PlantSet load_plant_set(const std::string& name, const NamedValues& values) {
               name};
     known.emplace_back(model->name);
   }
-  throw Error("", "unknown plant '" + name + "'", suggest(name, known));
+  throw Error("", "unknown plant '" + name + "'",
+              sets.empty() ? "of the sets that come with Dashpot " + suggest(name, sets) +
+                                 "; kinds of plant: " + join(known, ", ")
+                           : suggest(name, known));
 }
 
 }  // namespace dashpot
