@@ -13,6 +13,7 @@
 #include "dashpot/machine/model_in_plant.h"
 #include "dashpot/machine/plant_fit_store.h"
 #include "dashpot/machine/recording_parts.h"
+#include "dashpot/machine/sensor_doubts.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "document_text.h"
 #include "in_plant_document.h"
@@ -205,7 +206,12 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   console.print(where + "Models   " + models.string() + "/\nPlants   " + plants.string() +
                 "/, as they were found" + (has_follower ? "\n" : ", for 'dashpot observe'\n"));
   if (console.json) console.print_json(document_json(document));
-  return std::isfinite(worst_of(fits.front())) ? kDone : kNotUsable;
+  if (!std::isfinite(worst_of(fits.front()))) return kNotUsable;
+  if (fits.front().report.road_measured && is_far_off(setup, fits.front().report.traces)) {
+    console.error("no model comes near any sensor: the warnings say what to look at");
+    return kNotUsable;
+  }
+  return kDone;
 }
 
 }  // namespace dashpot::cli

@@ -90,6 +90,26 @@ TEST_CASE("identify --in: what speaks against a result stands in its files too" 
     CHECK(contains(read_file(results + page), doubt));
 }
 
+TEST_CASE("identify --in: a result that cannot be relied on is none for a script") {
+  const TemporaryFolder folder;
+  std::vector<std::string> lines = split(pushed_mass(), '\n');
+  for (std::size_t k = 1; k + 1 < lines.size(); ++k)  // another push than the one that moved it
+    lines[k] = lines[k].substr(0, lines[k].find(',')) + ',' +
+               split(lines[lines.size() - 1 - k], ',')[1] + lines[k].substr(lines[k].rfind(','));
+  folder.write("pushed.csv", join(lines, "\n"));
+  const TemporaryFolder elsewhere;
+  const std::string results = elsewhere.path().string();
+  const ProgramResult result = run_dashpot(
+      "identify " + folder.path().string() +
+      " --in oscillator,mass=unknown,stiffness=5N/mm,force=push,displacement=x --starts 1 "
+      "--models tanh_guo --quiet --output " +
+      results);
+  CHECK_MESSAGE(result.exit_code == 3, result.output);
+  CHECK(contains(result.output, "neither numbers nor intervals can be relied on"));
+  CHECK(contains(result.output, "no model comes near any sensor"));
+  CHECK(contains(read_file(results + "/report.html"), "A damper identified in its plant"));
+}
+
 TEST_CASE("identify --in: where no model is named some laws are tried, listed by their error" *
           doctest::test_suite("long")) {
   const TemporaryFolder folder, results;
