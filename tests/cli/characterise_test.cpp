@@ -2,6 +2,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "dashpot/base/text.h"
 #include "dashpot/report/wrap.h"
 #include "dashpot/value.h"
 #include "program.h"
@@ -66,7 +67,23 @@ TEST_CASE("characterise --json is in SI and has every level; --speeds asks for o
   const ProgramResult stated = run_dashpot("characterise " + file + " --speeds 100,5000");
   // 2000 N*s/m * 0.1 m/s + 20 N, and 100 N of gas.
   CHECK(contains(stated.output, "120      -320"));
-  CHECK(!contains(stated.output, "5000 "));
+  for (const char* row : {"0.5 A  5000", "0.5 A  5e+03"}) CHECK(!contains(stated.output, row));
+}
+
+TEST_CASE("characterise names the stated speeds that no level has, and one speed once") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("run_0.5A.csv", multi_speed_csv()).string();
+  const ProgramResult beyond = run_dashpot("characterise " + file + " --speeds 50,1000,2000");
+  CHECK_MESSAGE(contains(beyond.output, "no force is stated at 1000, 2000 mm/s: beyond"),
+                beyond.output);
+  CHECK_FALSE(contains(run_dashpot("characterise " + file + " --speeds 50").output, "beyond the"));
+
+  const std::vector<std::string> lines = split(multi_speed_csv(), '\n');
+  std::string slowest;
+  for (std::size_t k = 0; k < 14000; ++k) slowest += lines[k] + '\n';
+  const ProgramResult one =
+      run_dashpot("characterise " + folder.write("one_0.5A.csv", slowest).string());
+  CHECK_MESSAGE(contains(one.output, "cycles in 1 of 1 record; 12.5 mm/s"), one.output);
 }
 
 TEST_CASE("characterise warns where the recordings are of several dampers") {

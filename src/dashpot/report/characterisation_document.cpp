@@ -25,6 +25,13 @@ constexpr std::size_t kRowsInBrief = 24;
 std::string force_text(double newton) { return plain_quantity(newton, "N", 4); }
 std::string speed_text(double speed) { return quantity(speed, "m/s"); }
 
+/// "52.1 ... 524"; "125" where all are alike.
+std::string span_text(const std::vector<SpeedFigures>& speeds) {
+  const std::string least = speed_text(speeds.front().speed),
+                    most = speed_text(speeds.back().speed);
+  return least == most ? least : least + " ... " + most;
+}
+
 /// "412 ± 3"; the number alone without an error, a dash where it cannot be told. `si_unit`: "1" of
 /// a number that has none.
 std::string estimate_text(const Measured& estimate, std::string_view si_unit, int digits = 3) {
@@ -60,13 +67,12 @@ DocumentTable level_table(const Characterisation& all) {
 
   // Forces in N, speeds and knees in mm/s, rates in N/mm.
   for (const LevelFigures& level : all.levels)
-    table.rows.push_back(
-        {level_name(level, all.drive_unit), std::to_string(level.speeds.size()),
-         speed_text(level.speeds.front().speed) + " ... " + speed_text(level.speeds.back().speed),
-         estimate_text(level.friction, "N"), estimate_text(level.yield, "N"),
-         estimate_text(level.static_force, "N"), estimate_text(level.rate, "N/m"),
-         estimate_text(level.rebound.knee, "m/s"), estimate_text(level.compression.knee, "m/s"),
-         level.basis});
+    table.rows.push_back({level_name(level, all.drive_unit), std::to_string(level.speeds.size()),
+                          span_text(level.speeds), estimate_text(level.friction, "N"),
+                          estimate_text(level.yield, "N"), estimate_text(level.static_force, "N"),
+                          estimate_text(level.rate, "N/m"),
+                          estimate_text(level.rebound.knee, "m/s"),
+                          estimate_text(level.compression.knee, "m/s"), level.basis});
 
   table.note =
       "± one standard error. Friction: half of the jump of force between the directions towards "
@@ -212,6 +218,15 @@ std::vector<std::string> all_remarks(const Characterisation& all) {
     for (const std::string& remark : level.remarks) say(level_name(level, all.drive_unit), remark);
 
   std::vector<std::string> lines = all.remarks;
+  std::vector<std::string> beyond;
+  for (const double speed : all.stated_speeds)
+    if (std::ranges::none_of(all.levels, [&](const LevelFigures& level) {
+          return at_speed(level, speed).has_value();
+        }))
+      beyond.push_back(plain_quantity(speed, "m/s"));
+  if (!beyond.empty() && !all.levels.empty())
+    lines.push_back("no force is stated at " + join(beyond, ", ") + ' ' + unit_name("m/s") +
+                    ": beyond the speeds that were measured");
   constexpr std::size_t kNamed = 3;
   for (auto& [what, who] : said) {
     const std::size_t more = who.size() - std::min(who.size(), kNamed);
@@ -484,8 +499,7 @@ std::string sheet_verdict(const Characterisation& all) {
                                  counted(all.records.size(), "record"));
   if (all.levels.empty()) return text + ", none of them at a steady drive.";
   const LevelFigures& first = all.levels.front();
-  text += fmt::format("; {} ... {} {}", speed_text(first.speeds.front().speed),
-                      speed_text(first.speeds.back().speed), unit_name("m/s"));
+  text += "; " + span_text(first.speeds) + ' ' + unit_name("m/s");
   if (all.levels.size() > 1) text += ", " + counted(all.levels.size(), "level") + " of drive";
   text += '.';
 
