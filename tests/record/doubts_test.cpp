@@ -241,6 +241,19 @@ TEST_CASE("a velocity of another size, sign or time than the displacement's is t
   CHECK(doubts_about(with_velocity(1, 0.001)).empty());
 }
 
+TEST_CASE("a displacement that is another column is told by the velocity beside it") {
+  Record record = sound_record();
+  Channel velocity{"velocity", "m/s"};
+  for (const double t : record.time)
+    velocity.samples.push_back(0.04 * std::numbers::pi * std::cos(2 * std::numbers::pi * t));
+  record.channels.push_back(velocity);
+
+  // The force stands in its place: it goes with the velocity, as if in mm.
+  for (std::size_t k = 0; k < record.size(); ++k)
+    samples(record, "displacement")[k] = 0.3 * std::tanh(50 * velocity.samples[k]);
+  CHECK(contains(only_doubt(record), " times as far as the velocity would take it"));
+}
+
 TEST_CASE("a channel that was sampled more slowly and held is told with its rate") {
   Record record = sound_record();
   std::vector<double>& x = samples(record, "displacement");

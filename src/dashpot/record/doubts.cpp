@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string_view>
 
@@ -414,6 +415,17 @@ std::optional<std::string> late_velocity(const Record& record, const Samples& ve
          "dataset file without the late one leaves it out, and it follows from the other";
 }
 
+/// Where a measured velocity takes the damper, its mean apart, m.
+Samples travel_of(const Record& record, const Channel& velocity) {
+  const double mean = std::accumulate(velocity.samples.begin(), velocity.samples.end(), 0.0) /
+                      static_cast<double>(velocity.samples.size());
+  Samples travel(velocity.samples.size());
+  for (std::size_t k = 1; k < travel.size(); ++k)
+    travel[k] =
+        travel[k - 1] + (velocity.samples[k] - mean) * (record.time[k] - record.time[k - 1]);
+  return travel;
+}
+
 /// A measured velocity that is not the displacement's: by its sign, its size or its time.
 std::optional<std::string> unlike_velocity(const Record& record, const Samples& displacement) {
   constexpr double kAlike = 0.9, kAgainst = -0.5, kMost = 3;
@@ -435,6 +447,12 @@ std::optional<std::string> unlike_velocity(const Record& record, const Samples& 
   if (alike >= kAlike && (ratio >= kMost || ratio <= 1 / kMost))
     return "the velocity is " + format_number(ratio, 3) +
            " times that of the displacement: the unit of one of them may be wrong";
+
+  // The slope of a noisy displacement may be noise: what the velocity comes to is beyond that.
+  const double travel = usual_span(travel_of(record, *velocity));
+  if (alike < kAlike && travel > 0 && usual_span(displacement) >= kMost * travel)
+    return "the displacement goes " + format_number(usual_span(displacement) / travel, 3) +
+           " times as far as the velocity would take it: one of the two may be another column";
   return late_velocity(record, velocity->samples, slope);
 }
 
