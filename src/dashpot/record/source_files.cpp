@@ -124,6 +124,16 @@ Manifest::Manifest(const fs::path& path) : path_(path.string()) {
     throw Error(path_, "has no column 'file'",
                 "its first line names the columns, one of them 'file'");
   file_column_ = static_cast<std::size_t>(at - names_.begin());
+
+  // Of two rows that differ none is known to be the right one.
+  std::map<std::string, std::size_t> first;
+  for (std::size_t k = 0; k < rows_.size(); ++k)
+    if (const auto [told, is_new] = first.emplace(listed_file(k), k);
+        !is_new && rows_[told->second] != rows_[k])
+      throw Error(path_ + ':' + std::to_string(lines_[k]),
+                  told->first + " stands in line " + std::to_string(lines_[told->second]) +
+                      ", too, with other values",
+                  "one row for each file");
 }
 
 std::string Manifest::listed_file(std::size_t row) const {
