@@ -32,6 +32,10 @@ void open_in_browser(std::string address) {
 }
 
 int run(const StudioSettings& settings, Console& console) {
+  constexpr int kGreatestPort = 65535;
+  if (settings.options.port > kGreatestPort)
+    throw UsageError("--port", std::to_string(settings.options.port) + " is no port",
+                     "give at most " + std::to_string(kGreatestPort) + ", or 0 for a free one");
   const Monitor monitor = console.monitor();
   studio::run_studio(
       settings.options,

@@ -177,6 +177,7 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right" *
       {"bench --levels 1,x", "--levels: 'x' is not a number"},
       {"bench --damper spencer", "unknown damper 'spencer'"},
       {"completion tcsh", "unknown shell 'tcsh'"},
+      {"studio data --port 99999", "--port: 99999 is no port; give at most 65535"},
   };
   for (const auto& c : cases) {
     CAPTURE(c.arguments);
