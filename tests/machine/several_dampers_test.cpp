@@ -287,7 +287,7 @@ std::vector<PlantRecording> rides_with_weak_rear(InPlantSetup setup, double seco
 
 TEST_CASE("several dampers: kinds that nobody stated are told apart" *
           doctest::test_suite("long")) {
-  const auto rides = rides_with_weak_rear(half_car(), 3);
+  const auto rides = rides_with_weak_rear(half_car(), 4);
   InPlantOptions options{.starts = 2, .grade = ""};
   options.network.members = 1;
   options.network.epochs = 300;
