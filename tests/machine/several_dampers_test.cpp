@@ -348,6 +348,15 @@ TEST_CASE("several dampers: kinds that nobody stated are told apart" *
   CHECK(std::abs(found_of(forced.plant, "mass").value - 690) > 0.03 * 690);
 }
 
+TEST_CASE("several dampers: whether they are alike is asked at the one level of a recording, too") {
+  const auto rides = rides_with_weak_rear(half_car(), 1);
+  std::vector<std::string> stages;
+  InPlantOptions options{.starts = 1, .iterations = 3, .grade = ""};
+  options.monitor.on_progress = [&](const Progress& progress) { stages.push_back(progress.stage); };
+  identify_in_plant(std::vector<std::string>{"bingham"}, half_car(), rides, options);
+  CHECK(std::ranges::count(stages, "bingham, fit, round 1") == 2);
+}
+
 TEST_CASE("several dampers: kinds by name, in the file and back") {
   const auto with_kinds = [](const std::string& kinds) {
     return half_car("voltage:", "damper_kinds: " + kinds + "\nvoltage:");

@@ -165,7 +165,9 @@ Linear::Columns columns_of_kinds(const EndedFit& fit, const InPlantSetup& unlike
   InPlantSetup setup = weighed(fit);
   setup.kinds = unlike.kinds;
   const DamperUnknowns law = fit.law.in_kinds(setup.kinds);
-  const PlantResiduals residuals(setup, fit.cases, law, fit.plant_start, fit.scale);
+  PlantCases cases = fit.cases;
+  for (PlantCase& one : cases.all) one.levels.assign(law.kinds(), one.levels.front());
+  const PlantResiduals residuals(setup, cases, law, fit.plant_start, fit.scale);
 
   // Where all are what they are at the end of the fit.
   const std::vector<double>& end = fit.solved.x;

@@ -63,6 +63,9 @@ PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& case
                                std::vector<std::shared_ptr<const DamperModel>> held,
                                const std::vector<double>& plant, const DataScale& scale)
     : setup_(&setup), cases_(&cases), law_(law), held_(std::move(held)) {
+  assert(!law || std::ranges::all_of(cases.all, [&](const PlantCase& one) {
+    return one.levels.size() == law->kinds();
+  }));
   if (law) law_states_ = law->models(law->start()).front().law().states;
   for (const PlantInputChannel& input : setup.inputs) inputs_.push_back(input.place);
   for (const PlantSensor& sensor : setup.sensors) sensors_.push_back(sensor.place);
