@@ -123,9 +123,9 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
 
   if (!report.along.empty())
     lines.push_back(fmt::format(
-        "The model learnt from the damper's motion and force that the sensors tell along {}. The "
-        "numbers of the plant have no intervals beside it: those of {} say what the sensors tell.",
-        report.along, report.along));
+        "The model learnt from the damper's motion and force that the sensors tell along {}, whose "
+        "intervals say what they tell of the plant.",
+        report.along));
 
   // How it was integrated, and how well.
   lines.push_back(fmt::format(
@@ -200,6 +200,21 @@ std::string verdict_of(const InPlantFit& best, const InPlantSetup& setup) {
          " % of the worst sensor's rms is left on the time held back, in free run.";
 }
 
+/// What was found of plant and damper; `beside`: along which law, where another model is shown.
+void add_numbers(const InPlantReport& report, const std::string& beside, DocumentSection& section) {
+  if (!report.plant.empty())
+    section.tables.push_back(parameter_table("Plant" + beside, report.plant));
+  if (!report.plant_beside_any_force.empty()) {
+    section.tables.push_back(
+        parameter_table("Plant, whatever the dampers' forces are", report.plant_beside_any_force));
+    section.tables.back().note =
+        "From what the sensors show that no force of a damper could make: the law has no part in "
+        "these numbers.";
+  }
+  if (!report.damper.empty())
+    section.tables.push_back(parameter_table("Damper" + beside, report.damper));
+}
+
 }  // namespace
 
 double worst_of(const InPlantFit& fit) {
@@ -213,6 +228,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
                            const std::string& left_out, const InPlantSetup& setup,
                            const Console& console) {
   const InPlantFit& best = fits.front();
+  const auto law = std::ranges::find(fits, best.report.along, &InPlantFit::model);
   Document document{.title = "A damper identified in its plant",
                     .subtitle = std::string(setup.model->title),
                     .verdict = {},
@@ -241,22 +257,16 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, std::span<const 
   if (best.report.has_models()) {
     DocumentSection section{.name = "fit", .title = best.model, .paragraphs = {}};
     section.tables = {sensor_table(best.report)};
-    if (!best.report.plant.empty())
-      section.tables.push_back(parameter_table("Plant", best.report.plant));
-    if (!best.report.plant_beside_any_force.empty()) {
-      section.tables.push_back(parameter_table("Plant, whatever the dampers' forces are",
-                                               best.report.plant_beside_any_force));
-      section.tables.back().note =
-          "From what the sensors show that no force of a damper could make: the law has no part in "
-          "these numbers.";
-    }
-    if (!best.report.damper.empty())
-      section.tables.push_back(parameter_table("Damper", best.report.damper));
+    const bool is_plant_of_law =
+        law != fits.end() && std::ranges::equal(best.report.plant, law->report.plant, {},
+                                                &FittedParameter::value, &FittedParameter::value);
+    if (!is_plant_of_law) add_numbers(best.report, "", section);
+    if (law != fits.end()) add_numbers(law->report, ", along " + law->model, section);
     if (!best.report.nuisances.empty())
       section.tables.push_back(parameter_table("Nuisances", best.report.nuisances, Shown::AsSeen));
     if (best.report.road_measured && !best.report.nuisances.empty())
       section.tables.back().audience = Audience::Files;
-    add_advice(best.report.advice, section);
+    add_advice(law != fits.end() ? law->report.advice : best.report.advice, section);
     section.figures.insert(section.figures.begin(), first_recording(best.report));
     section.remarks = knowable_lines(best.report);
     if (!left_out.empty()) section.remarks.push_back(left_out);

@@ -137,6 +137,24 @@ TEST_CASE("identify --in: where no model is named some laws are tried, listed by
                                          "tanh_guo", "tanh_kwok"});
 }
 
+TEST_CASE("identify --in: beside a network stand the numbers of the law along which it learnt" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder, results;
+  folder.write("pushed.csv", pushed_mass());
+  const ProgramResult result = run_dashpot(
+      "identify " + folder.path().string() +
+      " --in oscillator,mass=unknown,stiffness=5N/mm,force=push,displacement=x --models "
+      "dahl,hysteresis_network --network members=1,epochs=100 --output " +
+      results.path().string());
+  REQUIRE(result.exit_code == 0);
+  const std::string page = read_file(results.path().string() + "/report.md");
+  CAPTURE(page);
+  CHECK(contains(page, "learnt along dahl"));  // which has no dashpot, and leaves much more
+  CHECK(contains(page, "**Plant**"));          // the network has moved the mass
+  CHECK(contains(page, "**Plant, along dahl**"));
+  CHECK(contains(page, "**Damper, along dahl**"));
+}
+
 TEST_CASE("identify --in: what cannot be used is said before the work" *
           doctest::test_suite("long")) {
   const TemporaryFolder folder;
@@ -151,7 +169,7 @@ TEST_CASE("identify --in: what cannot be used is said before the work" *
   CHECK(contains(output(plant + " --models all"),
                  "--models: 'all' are models of a bench; with --in, 'usual' or names"));
   CHECK(contains(output(plant + " --models family_gated"),
-                 "'family_gated' is a model of many dampers, and a plant holds one"));
+                 "'family_gated' is a model of many dampers that differ by their drawings"));
   CHECK(contains(output(plant + " --models dahl --leave-out current"),
                  "--leave-out: has no effect with --in; 'held_back'"));
   CHECK(contains(output(plant + " --models dahl --asymmetric"), "--asymmetric: has no meaning"));

@@ -207,7 +207,8 @@ TEST_CASE("design: ranges of which no damper can be drawn are told from constrai
             .starts_with("no damper of these ranges can be made within its tolerances"));
 }
 
-TEST_CASE("design: among several fluids the best is no worse than that of one of them") {
+TEST_CASE("design: among several fluids the best is no worse than that of one of them" *
+          doctest::test_suite("long")) {
   const auto reached = [](const std::string& fluids) {
     const DesignReport report = designed(
         "damper: passenger_car\nat: {current: 2 A, velocity: 0.3 m/s}\n"

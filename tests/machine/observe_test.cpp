@@ -303,7 +303,8 @@ TEST_CASE("observe: more states than a filter estimates are carried along the da
   }
 }
 
-TEST_CASE("observe: a force that is off all along is not taken for the zero of a sensor") {
+TEST_CASE("observe: a force that is off all along is not taken for the zero of a sensor" *
+          doctest::test_suite("long")) {
   const Wear lopsided{.name = "lopsided",
                       .unit = "N",
                       .meaning = "more in rebound, less in compression",

@@ -303,7 +303,8 @@ struct Loops {
 
 }  // namespace
 
-TEST_CASE("errors of loops that differ as wholes tell two of one damper apart by chance only") {
+TEST_CASE("errors of loops that differ as wholes tell two of one damper apart by chance only" *
+          doctest::test_suite("long")) {
   Random random(7);
   int clear = 0, clear_by_points = 0;
   constexpr int kPairs = 30;
