@@ -6,6 +6,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/machine/in_plant.h"
 #include "dashpot/machine/in_plant_words.h"
+#include "dashpot/machine/observe.h"
 #include "dashpot/machine/virtual_campaign.h"
 #include "dashpot/machine/worn_damper.h"
 #include "support.h"
