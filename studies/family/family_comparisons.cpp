@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/report/words.h"
 #include "studies/family/family_parts.h"
 
 namespace dashpot {

@@ -10,7 +10,7 @@
 #include "dashpot/report/inspection.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_tables.h"
-#include "dashpot/report/words.h"
+#include "dashpot/report/ranking_words.h"
 #include "report/example_ranking.h"
 #include "support.h"
 

@@ -8,6 +8,7 @@
 #include "dashpot/error.h"
 #include "dashpot/rank.h"
 #include "dashpot/report/gnuplot.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"

@@ -9,6 +9,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/report/quantity.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {

@@ -9,6 +9,7 @@
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/residual_section.h"
 #include "dashpot/report/slider_section.h"

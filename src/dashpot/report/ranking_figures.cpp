@@ -10,6 +10,7 @@
 #include "dashpot/damper/force_band.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_tables.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/residual.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"

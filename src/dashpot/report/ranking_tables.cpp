@@ -16,6 +16,7 @@
 #include "dashpot/numerics/constants.h"
 #include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/quantity.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {

@@ -11,8 +11,8 @@
 #include "dashpot/identify/rank/paired_ratio.h"
 #include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/quantity.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/residual_section.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot {
 

@@ -8,6 +8,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/identify/rank/information.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {

@@ -3,9 +3,9 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/search_report.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/report/provenance.h"
+#include "dashpot/report/ranking_words.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"
 

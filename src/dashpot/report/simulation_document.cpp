@@ -6,7 +6,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/ride_parts.h"
-#include "dashpot/report/words.h"
 #include "dashpot/suspension/ride/weighting.h"
 #include "dashpot/suspension/trace.h"
 

@@ -2,7 +2,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/report/words.h"
+#include "dashpot/report/ranking_words.h"
 
 namespace dashpot {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dashpot/damper/registry.h"
-#include "dashpot/report/words.h"
+#include "dashpot/report/ranking_words.h"
 #include "identify/small_campaign.h"
 #include "support.h"
 
