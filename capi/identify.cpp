@@ -8,7 +8,6 @@
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/rank.h"
 #include "dashpot/report/report_json.h"
-#include "dashpot/report/words.h"
 #include "handles.h"
 #include "recordings.h"
 #include "status.h"

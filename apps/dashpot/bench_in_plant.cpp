@@ -17,7 +17,6 @@
 #include "dashpot/record/record_file.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/report/provenance.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 namespace {

@@ -12,7 +12,6 @@
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/rank.h"
 #include "dashpot/report/report_json.h"
-#include "dashpot/report/words.h"
 #include "data.h"
 #include "document_text.h"
 #include "evaluate_in_plant.h"

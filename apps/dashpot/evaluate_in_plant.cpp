@@ -15,7 +15,6 @@
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/report/quantity.h"
-#include "dashpot/report/words.h"
 #include "data.h"
 #include "document_text.h"
 #include "sensor_figure.h"

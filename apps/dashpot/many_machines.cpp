@@ -4,8 +4,8 @@
 
 #include "console.h"
 #include "dashpot/base/ranks.h"
+#include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 

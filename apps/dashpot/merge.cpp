@@ -12,7 +12,6 @@
 #include "dashpot/identify/many/many.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/search/trial_store.h"
-#include "dashpot/report/words.h"
 #include "dashpot/suspension/sweep/store.h"
 #include "results.h"
 #include "studies/family/training_store.h"

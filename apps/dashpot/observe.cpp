@@ -240,8 +240,8 @@ std::vector<std::string> noise_lines(const ObserveReport& report, const InPlantS
     lines.push_back(fmt::format(
         "Road, not measured: G_d(n0) {} m^3 at {} m/s{}.", format_number(report.noise.roughness, 3),
         format_number(road->speed, 3), road->roughness > 0 ? ", as its class says" : ", found"));
-  lines.push_back(fmt::format("{} step{} of the filter per sample.", report.steps,
-                              report.steps == 1 ? "" : "s"));
+  lines.push_back(fmt::format("{} of the filter per sample.",
+                              counted(static_cast<std::size_t>(report.steps), "step")));
   return lines;
 }
 

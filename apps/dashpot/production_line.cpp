@@ -11,8 +11,8 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
+#include "dashpot/base/text.h"
 #include "dashpot/identify/search/search_space.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 namespace {

@@ -10,6 +10,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/ranks.h"
+#include "dashpot/base/text.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/model_choice.h"

@@ -7,9 +7,9 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
 #include "dashpot/export/js/js.h"
 #include "dashpot/report/parameter_files.h"
-#include "dashpot/report/words.h"
 #include "document_text.h"
 #include "traces.h"
 #include "units.h"

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "console.h"
+#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/presets.h"
-#include "dashpot/report/words.h"
 #include "data.h"
 #include "results.h"
 #include "studies.h"

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 
 #include "console.h"
+#include "dashpot/base/text.h"
 #include "dashpot/identify/rank/fit_store.h"
-#include "dashpot/report/words.h"
 #include "ranking_run.h"
 #include "studies.h"
 #include "studies/one_sensor/one_sensor_document.h"

@@ -18,7 +18,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/machine/day_order.h"
 #include "dashpot/machine/in_plant_words.h"
-#include "dashpot/report/words.h"
 #include "data.h"
 #include "document_text.h"
 #include "results.h"

@@ -10,7 +10,6 @@
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/numerics/distributions.h"
 #include "dashpot/report/quantity.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 namespace {

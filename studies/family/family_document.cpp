@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/report/words.h"
+#include "dashpot/base/text.h"
 #include "studies/family/family_parts.h"
 
 namespace dashpot {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/text.h"
 #include "dashpot/report/words.h"
 #include "studies/family/family_parts.h"
 

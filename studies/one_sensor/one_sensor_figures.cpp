@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/text.h"
 #include "dashpot/evaluate.h"
 #include "dashpot/record/differentiate.h"
 #include "dashpot/report/words.h"

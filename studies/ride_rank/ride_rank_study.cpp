@@ -8,7 +8,6 @@
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/ride_rank.h"
-#include "dashpot/report/words.h"
 #include "dashpot/suspension/sweep/statistics.h"
 
 namespace dashpot {

@@ -40,6 +40,12 @@ TEST_CASE("split keeps empty parts and join undoes it") {
   CHECK(join(split("a,,b,", ','), ",") == "a,,b,");
 }
 
+TEST_CASE("one is counted in the singular") {
+  CHECK(counted(0, "record") == "0 records");
+  CHECK(counted(1, "whole cycle") == "1 whole cycle");
+  CHECK(counted(2, "record") == "2 records");
+}
+
 TEST_CASE("a mistyped word finds its neighbour") {
   const std::vector<std::string> known = {"bingham", "modified_bouc_wen", "tanh_kwok"};
   CHECK(closest("bingam", known) == "bingham");

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ std::string format_number(double value, int digits = 4);
 
 /// The same without an exponent up to a million, as people write forces and stiffnesses: 123457.
 std::string format_plain(double value, int digits = 4);
+
+/// "2 records", "1 record".
+std::string counted(std::size_t count, std::string_view noun);
 
 std::string_view trim(std::string_view text);
 std::string lower(std::string_view text);

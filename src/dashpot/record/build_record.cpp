@@ -692,10 +692,8 @@ void take_table(BuiltRecord& built, RawTable& table, const ColumnUses& uses,
                 const BuildContext& context) {
   for (const ColumnUse& use : uses.used) require_numbers(table, use, context.as_given);
   if (table.rows() < 2)
-    throw Error(
-        table.file,
-        "has " + std::to_string(table.rows()) + (table.rows() == 1 ? " sample" : " samples"),
-        "a recording has at least 2, and hundreds to be of use");
+    throw Error(table.file, "has " + counted(table.rows(), "sample"),
+                "a recording has at least 2, and hundreds to be of use");
 
   // Name and conditions: those of the file, then those of the dataset file.
   Record& record = built.record;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/numerics/median.h"
@@ -295,8 +296,8 @@ std::string told_without_cycles(const DynoChannels& c) {
 std::string left_out_remark(std::size_t unlike) {
   if (unlike == 0) return {};
   return fmt::format(
-      "{} cycle{} left out: the two strokes differ by more than {:g} % in length or {:g} % in time",
-      unlike, unlike == 1 ? "" : "s", 100 * kStrokesAlike, 100 * kTimesAlike);
+      "{} left out: the two strokes differ by more than {:g} % in length or {:g} % in time",
+      counted(unlike, "cycle"), 100 * kStrokesAlike, 100 * kTimesAlike);
 }
 
 }  // namespace
@@ -471,9 +472,9 @@ RecordFigures figures_of_record(const Record& record, DriveUnit drive_unit) {
   const std::size_t strokes = points.empty() ? 0 : points.size() - 1;
   if (coarse > 0)
     figures.remarks.push_back(
-        fmt::format("{} cycle{} of fewer than {} samples per stroke left out: "
+        fmt::format("{} of fewer than {} samples per stroke left out: "
                     "sample faster to characterise them",
-                    coarse, coarse == 1 ? "" : "s", kLeastSamples));
+                    counted(coarse, "cycle"), kLeastSamples));
   if (strokes > kFewStrokes && coarse == 0 &&
       2 * static_cast<double>(figures.cycles.size()) <
           kCyclicShare * static_cast<double>(strokes)) {
@@ -484,9 +485,9 @@ RecordFigures figures_of_record(const Record& record, DriveUnit drive_unit) {
     figures.remarks.push_back(told_without_cycles(c));
     figures.cycles.clear();
   } else if (figures.cycles.empty() && coarse == 0) {
-    figures.remarks.push_back(fmt::format(
-        "no whole cycle between turning points, only {} stroke{}: record at least two cycles",
-        strokes, strokes == 1 ? "" : "s"));
+    figures.remarks.push_back(
+        fmt::format("no whole cycle between turning points, only {}: record at least two cycles",
+                    counted(strokes, "stroke")));
     figures.remarks.push_back(told_without_cycles(c));
   }
   if (figures.cycles.empty()) return figures;

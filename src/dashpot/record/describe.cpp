@@ -229,10 +229,8 @@ std::vector<FilesAlike> files_alike(const std::vector<ColumnReading>& readings) 
 std::string describe(const Dataset& dataset) { return describe(dataset, PrintUnits()); }
 
 std::string describe(const Dataset& dataset, const PrintUnits& units) {
-  const std::size_t records = dataset.records.size(), files = dataset.files.size();
-  std::string out = dataset.name + ": " + std::to_string(records) +
-                    (records == 1 ? " record from " : " records from ") + std::to_string(files) +
-                    (files == 1 ? " file\n" : " files\n");
+  std::string out = dataset.name + ": " + counted(dataset.records.size(), "record") + " from " +
+                    counted(dataset.files.size(), "file") + "\n";
   if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
 
   for (const FilesAlike& group : files_alike(dataset.readings)) {

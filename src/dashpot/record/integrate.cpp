@@ -90,7 +90,7 @@ IntegratedDisplacement integrate_without_drift(std::span<const double> velocity,
   const std::size_t cycles = starts.empty() ? 0 : starts.size() - 1;
   if (cycles < kFewestCycles)
     throw Error(
-        "", "only " + std::to_string(cycles) + (cycles == 1 ? " whole cycle" : " whole cycles"),
+        "", "only " + counted(cycles, "whole cycle"),
         "at least " + std::to_string(kFewestCycles) + " are needed to tell drift from motion");
 
   // The zero of the velocity.

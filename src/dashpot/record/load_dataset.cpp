@@ -454,8 +454,7 @@ class Loader {
 
     std::string what = sources_.files.empty()
                            ? "the folder holds no files"
-                           : "no recording among " + std::to_string(file_count_) +
-                                 (file_count_ == 1 ? " file" : " files");
+                           : "no recording among " + counted(file_count_, "file");
     // The reasons, the errors first.
     constexpr std::size_t kReasons = 3;
     std::vector<std::string> reasons;

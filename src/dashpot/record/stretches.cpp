@@ -69,8 +69,7 @@ RawTable without_bad_rows(RawTable table, const ColumnUses& uses, bool drop) {
          }))
     --end;
   if (const std::size_t tail = table.rows() - end; tail > 0)
-    table.notes.push_back(std::to_string(tail) + (tail == 1 ? " row" : " rows") +
-                          " at the end without samples left out");
+    table.notes.push_back(counted(tail, "row") + " at the end without samples left out");
 
   // Bad rows before it.
   std::vector<Rows> kept{{0, end}};
@@ -121,7 +120,7 @@ RawTable without_repeated_stamps(RawTable table, std::size_t time) {
 
   kept.emplace_back(first, t.size());
   std::erase_if(kept, [](const Rows& rows) { return rows.first >= rows.second; });
-  table.notes.push_back(std::to_string(repeated) + (repeated == 1 ? " row" : " rows") +
+  table.notes.push_back(counted(repeated, "row") +
                         " with the time stamp of the row before left out: the first counts (" +
                         std::to_string(different) + " of them with other samples)");
   return rows_of(table, kept);

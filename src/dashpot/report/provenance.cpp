@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
-#include "dashpot/report/words.h"
 
 namespace dashpot {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/mean/mean_model.h"
 #include "dashpot/identify/judge/left_inertia.h"
 #include "dashpot/report/predicted_ride_section.h"

@@ -29,8 +29,4 @@ std::string level_text(double level, const std::string& unit) {
   return unit.empty() ? "constant drive" : format_number(level, 3) + " " + unit;
 }
 
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 }  // namespace dashpot

@@ -1,8 +1,7 @@
 #pragma once
-#include <cstddef>
 #include <string>
 
-// Numbers, levels and counts in the words of a document.
+// Numbers and levels in the words of a document.
 namespace dashpot {
 
 /// "3.63", "12.4", "128": percent with a resolution that fits its size; "-" when not finite.
@@ -13,7 +12,5 @@ std::string number_text(double value, int digits = 3);
 std::string range_text(double least, double greatest, int digits);
 /// "0.5 A"; without a unit "constant drive", since nothing is known of it.
 std::string level_text(double level, const std::string& unit);
-/// "2 records", "1 record".
-std::string counted(std::size_t count, const std::string& noun);
 
 }  // namespace dashpot

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/text.h"
 #include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
@@ -133,8 +134,8 @@ std::string residual_verdict(const std::vector<ResidualTest>& tests) {
   if (tested == 0) return {};
 
   // What is left where all is well is noise: white, and of no input.
-  std::string text = fmt::format("Residuals at {:.0f} % confidence: white in {} of {} record{}",
-                                 100 * kResidualConfidence, white, tested, tested == 1 ? "" : "s");
+  std::string text = fmt::format("Residuals at {:.0f} % confidence: white in {} of {}",
+                                 100 * kResidualConfidence, white, counted(tested, "record"));
   bool all = white == tested;
   for (const auto& [name, counts] : inputs) {
     text += fmt::format("; independent of {} in {} of {}", name, counts.second, counts.first);

@@ -275,8 +275,7 @@ class EquationParser {
       if (k > 0) require(",", "between the arguments of " + name + "()");
       arguments[k] = function->op == LawOp::Where && k == 0 ? condition() : sum();
     }
-    require(")", "behind the " + std::to_string(function->arguments) +
-                     (function->arguments == 1 ? " argument of " : " arguments of ") + name + "()");
+    require(")", "behind the " + counted(function->arguments, "argument") + " of " + name + "()");
     return make(function->op, arguments[0], arguments[1], arguments[2]);
   }
 
