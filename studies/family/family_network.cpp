@@ -1,7 +1,6 @@
 #include "studies/family/family_network.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -9,8 +8,8 @@
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/mlp_evaluator.h"
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/damper/nets/train_batches.h"
-#include "dashpot/identify/fit/training_samples.h"
 
 namespace dashpot {
 namespace {
@@ -44,23 +43,12 @@ std::string describe(const FamilyRule& rule) {
 
 StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples) {
   StudiedNetwork network;
-  Mlp& mlp = network.mlp;
-
-  // ReLU layers and a linear output.
-  mlp.layers = {kFamilyInputs.size()};
-  mlp.layers.insert(mlp.layers.end(), rule.hidden.begin(), rule.hidden.end());
-  mlp.layers.push_back(1);
-  mlp.activations.assign(rule.hidden.size(), Activation::Relu);
-  mlp.activations.push_back(Activation::Identity);
+  network.mlp = without_weights(kFamilyInputs.size(), rule.hidden, Activation::Relu);
 
   // Raw inputs are only brought to the authors' units; else inputs and force are standardised.
-  mlp.input_mean.assign(kFamilyInputs.size(), 0);
-  mlp.input_scale.assign(kRawUnits.begin(), kRawUnits.end());
-  if (rule.inputs == FamilyRule::Inputs::Raw) return network;
-  for (std::size_t k = 0; k < kFamilyInputs.size(); ++k)
-    std::tie(mlp.input_mean[k], mlp.input_scale[k]) =
-        mean_and_scale(samples.inputs, k, kFamilyInputs.size());
-  std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
+  network.mlp.input_mean.assign(kFamilyInputs.size(), 0);
+  network.mlp.input_scale.assign(kRawUnits.begin(), kRawUnits.end());
+  if (rule.inputs == FamilyRule::Inputs::Standardised) standardise(network.mlp, samples);
   return network;
 }
 

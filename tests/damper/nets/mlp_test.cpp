@@ -5,6 +5,7 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/damper/nets/normal_equations.h"
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/error.h"
 #include "support.h"
 
@@ -64,6 +65,27 @@ double plain_error(const Mlp& mlp, const TrainingSamples& samples, double offset
 }
 
 }  // namespace
+
+TEST_CASE("a network is standardised by its samples; a constant input has scale 1") {
+  Mlp mlp = without_weights(2, {3}, Activation::Relu);
+  CHECK(mlp.layers == std::vector<std::size_t>{2, 3, 1});
+  CHECK(mlp.activations == std::vector{Activation::Relu, Activation::Identity});
+  CHECK(mlp.parameters.empty());  // a trainer draws the first ones
+
+  // The mean of ten times 0.1 rounds: what it leaves is no spread.
+  TrainingSamples samples;
+  for (int k = 0; k < 10; ++k) {
+    samples.inputs.insert(samples.inputs.end(), {0.1, k % 2 == 0 ? 1.0 : 5.0});
+    samples.targets.push_back(k % 2 == 0 ? -7 : 7);
+  }
+  standardise(mlp, samples);
+  CHECK(mlp.input_mean[0] == doctest::Approx(0.1));
+  CHECK(mlp.input_scale[0] == 1);
+  CHECK(mlp.input_mean[1] == 3);
+  CHECK(mlp.input_scale[1] == 2);
+  CHECK(mlp.output_mean == 0);
+  CHECK(mlp.output_scale == 7);
+}
 
 TEST_CASE("TC-12: a (2,10,1) network") {
   Mlp mlp = plain({2, 10, 1});

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -72,32 +72,6 @@ TrainingSamples drawn(const InverseNetwork& network, std::span<const InverseRun>
       }
   }
   return samples;
-}
-
-/// Mean and standard deviation of every `stride`th value from `first` on; a constant gets the
-/// scale 1.
-std::pair<double, double> moments(const std::vector<double>& values, std::size_t first,
-                                  std::size_t stride) {
-  double sum = 0, squares = 0, count = 0;
-  for (std::size_t k = first; k < values.size(); k += stride, ++count) sum += values[k];
-  const double mean = sum / count;
-  for (std::size_t k = first; k < values.size(); k += stride)
-    squares += (values[k] - mean) * (values[k] - mean);
-  const double scale = std::sqrt(squares / count);
-  return {mean, scale > 0 ? scale : 1};
-}
-
-/// Sets the network's scales from its training samples.
-void standardise(Mlp& mlp, const TrainingSamples& samples) {
-  const std::size_t inputs = mlp.layers.front();
-  mlp.input_mean.clear();
-  mlp.input_scale.clear();
-  for (std::size_t k = 0; k < inputs; ++k) {
-    const auto [mean, scale] = moments(samples.inputs, k, inputs);
-    mlp.input_mean.push_back(mean);
-    mlp.input_scale.push_back(scale);
-  }
-  std::tie(mlp.output_mean, mlp.output_scale) = moments(samples.targets, 0, 1);
 }
 
 /// The preset's network without weights.

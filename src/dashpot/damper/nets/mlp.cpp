@@ -80,6 +80,16 @@ void nguyen_widrow(Random& random, double* weight, std::size_t inputs, std::size
 
 }  // namespace
 
+Mlp without_weights(std::size_t inputs, const std::vector<std::size_t>& hidden, Activation kind) {
+  Mlp mlp;
+  mlp.layers.push_back(inputs);
+  mlp.layers.insert(mlp.layers.end(), hidden.begin(), hidden.end());
+  mlp.layers.push_back(1);
+  mlp.activations.assign(hidden.size(), kind);
+  mlp.activations.push_back(Activation::Identity);
+  return mlp;
+}
+
 void initialise(Mlp& mlp, std::uint64_t seed) {
   assert(mlp.layers.size() >= 2);
   constexpr double kInputRange = 2;  // standardised inputs lie within about two standard deviations

@@ -30,6 +30,10 @@ struct Mlp {
   double evaluate(const double* input) const noexcept;
 };
 
+/// Hidden layers of one activation and a linear output, as yet without weights and scales: where
+/// `parameters` are empty, the trainers draw the first ones.
+Mlp without_weights(std::size_t inputs, const std::vector<std::size_t>& hidden, Activation kind);
+
 /// Random weights from the seed. Hidden tanh and sigmoid layers in the manner of Nguyen and Widrow
 /// (IJCNN 1990): each neuron's slope lies somewhere in the range of its inputs, and together they
 /// cover it. Others so that the variance passes through (He et al., ICCV 2015), biases 0.

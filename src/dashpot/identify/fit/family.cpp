@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/family/physics_information.h"
 #include "dashpot/damper/kinds/family/presets.h"
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
 #include "dashpot/identify/fit/family_line_fit.h"
@@ -114,24 +114,13 @@ TrainingSamples samples_of(const FamilyPreset& preset, const FamilyBaseline& bas
   return samples;
 }
 
-Mlp standardised(const FamilyPreset& preset, const NetworkDesign& design,
-                 const TrainingSamples& samples) {
-  // Layers and activations as designed.
-  const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
-  Mlp mlp;
-  mlp.layers.push_back(preset.inputs.size());
-  mlp.layers.insert(mlp.layers.end(), hidden.begin(), hidden.end());
-  mlp.layers.push_back(1);
-  mlp.activations.assign(mlp.layers.size() - 2, design.activation.value_or(Activation::Relu));
-  mlp.activations.push_back(Activation::Identity);
-
-  // Inputs and output standardised by the samples.
-  for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
-    const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
-    mlp.input_mean.push_back(mean);
-    mlp.input_scale.push_back(scale);
-  }
-  std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
+/// The preset's network as designed, its scales those of the samples.
+Mlp untrained(const FamilyPreset& preset, const NetworkDesign& design,
+              const TrainingSamples& samples) {
+  Mlp mlp =
+      without_weights(preset.inputs.size(), design.hidden.empty() ? preset.hidden : design.hidden,
+                      design.activation.value_or(Activation::Relu));
+  standardise(mlp, samples);
   return mlp;
 }
 
@@ -163,7 +152,7 @@ LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& base
   const SamplesOf samples_of_records = [&](const std::vector<Record>& records) {
     return samples_of(preset, baseline, family_records(records, drive_unit));
   };
-  const Mlp start = standardised(preset, options.network, samples_of_records(training));
+  const Mlp start = untrained(preset, options.network, samples_of_records(training));
   TrainedEnsemble trained = train_networks(start, training, samples_of_records, options);
   report.status = trained.status;
   report.message = trained.message;

@@ -6,9 +6,9 @@
 #include <map>
 #include <tuple>
 
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/free_run_records.h"
-#include "dashpot/identify/fit/training_samples.h"
 #include "dashpot/identify/judge/stroke.h"
 #include "dashpot/numerics/linear_algebra.h"
 

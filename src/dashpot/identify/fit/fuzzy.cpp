@@ -7,6 +7,7 @@
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/fuzzy/presets.h"
 #include "dashpot/damper/kinds/fuzzy/train_fuzzy.h"
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/training_samples.h"
 

@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/narx/train_narx.h"
 #include "dashpot/damper/nets/ensemble.h"
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/member_report.h"
@@ -194,13 +195,8 @@ Mlp standardised(const NarxPlan& plan, const TrainingSamples& rows, std::size_t 
 
   // Layers and activations as planned.
   const std::size_t width = rows.inputs.size() / rows.targets.size();
-  Mlp mlp;
-  mlp.layers.push_back(width);
-  mlp.layers.insert(mlp.layers.end(), plan.hidden.begin(), plan.hidden.end());
-  mlp.layers.push_back(1);
-  mlp.activations.assign(plan.hidden.size(), plan.activation);
-  mlp.activations.push_back(plan.bounded ? Activation::Tanh : Activation::Identity);
-  mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
+  Mlp mlp = without_weights(width, plan.hidden, plan.activation);
+  if (plan.bounded) mlp.activations.back() = Activation::Tanh;
 
   // The output's scale: a bounded network covers the force span with room to spare.
   if (plan.bounded) {

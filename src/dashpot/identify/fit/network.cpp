@@ -1,8 +1,7 @@
-#include <tuple>
-
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/nets/standardise.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"
 #include "dashpot/identify/fit/training_samples.h"
@@ -15,25 +14,13 @@ double input_of(const DamperInput& input, std::string_view name) {
   return name == "velocity" ? input.velocity : input.current;
 }
 
-Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
-                 const TrainingSamples& samples) {
-  // Layers and activations as designed.
-  const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
-  Mlp mlp;
-  mlp.layers.push_back(preset.inputs.size());
-  mlp.layers.insert(mlp.layers.end(), hidden.begin(), hidden.end());
-  mlp.layers.push_back(1);
-  mlp.activations.assign(hidden.size(), design.activation.value_or(Activation::Tanh));
-  mlp.activations.push_back(Activation::Identity);
-  mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
-
-  // Inputs and output standardised by the samples.
-  for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
-    const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
-    mlp.input_mean.push_back(mean);
-    mlp.input_scale.push_back(scale);
-  }
-  std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
+/// The preset's network as designed, its scales those of the samples.
+Mlp untrained(const NetworkPreset& preset, const NetworkDesign& design,
+              const TrainingSamples& samples) {
+  Mlp mlp =
+      without_weights(preset.inputs.size(), design.hidden.empty() ? preset.hidden : design.hidden,
+                      design.activation.value_or(Activation::Tanh));
+  standardise(mlp, samples);
   return mlp;
 }
 
@@ -57,7 +44,7 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
   };
 
   // Train the members.
-  const Mlp start = standardised(preset, options.network, samples_of(training));
+  const Mlp start = untrained(preset, options.network, samples_of(training));
   TrainedEnsemble trained = train_networks(start, training, samples_of, options);
 
   FitReport report;

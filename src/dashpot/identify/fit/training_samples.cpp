@@ -1,7 +1,5 @@
 #include "dashpot/identify/fit/training_samples.h"
 
-#include <cmath>
-
 namespace dashpot {
 
 TrainingSamples training_samples(const std::vector<Record>& records, DriveUnit drive_unit,
@@ -21,18 +19,6 @@ TrainingSamples training_samples(const std::vector<Record>& records, DriveUnit d
   }
   if (offset == OffsetMode::Record) samples.groups = records.size();
   return samples;
-}
-
-std::pair<double, double> mean_and_scale(const std::vector<double>& values, std::size_t first,
-                                         std::size_t stride) {
-  double sum = 0, square = 0;
-  std::size_t n = 0;
-  for (std::size_t k = first; k < values.size(); k += stride, ++n) sum += values[k];
-  const double mean = sum / static_cast<double>(n);
-  for (std::size_t k = first; k < values.size(); k += stride)
-    square += (values[k] - mean) * (values[k] - mean);
-  const double deviation = std::sqrt(square / static_cast<double>(n));
-  return {mean, deviation > 1e-12 * (std::abs(mean) + 1e-300) ? deviation : 1.0};
 }
 
 }  // namespace dashpot
