@@ -263,31 +263,12 @@ DocumentFigure curve_figure(const Characterisation& all) {
                   blank_panel("Greatest force of a cycle", {"Greatest velocity", "m/s"}, newtons);
   for (std::size_t k = 0; k < all.levels.size(); ++k) {
     const LevelFigures& level = all.levels[k];
-    const std::string label = level_name(level, all.drive_unit),
-                      colour = drive_colour(k, all.levels.size());
-    const auto add = [&](FigurePanel& to, double StrokeFigures::* speed,
-                         double StrokeFigures::* force) {
-      FigureSeries line{.label = label, .colour = colour, .x = {}, .y = {}};
-      for (auto s = level.speeds.rbegin(); s != level.speeds.rend(); ++s) {
-        line.x.push_back(-(s->compression.*speed));
-        line.y.push_back(s->compression.*force);
-      }
-      // Between the slowest cycles of the directions nothing was measured.
-      line.x.push_back(kNoNumber);
-      line.y.push_back(kNoNumber);
-      for (const SpeedFigures& s : level.speeds) {
-        line.x.push_back(s.rebound.*speed);
-        line.y.push_back(s.rebound.*force);
-      }
-      FigureSeries dots = line;
-      dots.mark = FigureSeries::Mark::Dots;
-      dots.width = 3;
-      dots.is_read = false;
-      to.series.push_back(std::move(line));
-      to.series.push_back(std::move(dots));
-    };
-    add(middle, &StrokeFigures::mid_speed, &StrokeFigures::mid_force);
-    add(peak, &StrokeFigures::peak_speed, &StrokeFigures::peak_force);
+    const FigureSeries line{.label = level_name(level, all.drive_unit),
+                            .colour = drive_colour(k, all.levels.size()),
+                            .x = {},
+                            .y = {}};
+    add_level_curve(middle, line, level, &StrokeFigures::mid_speed, &StrokeFigures::mid_force);
+    add_level_curve(peak, line, level, &StrokeFigures::peak_speed, &StrokeFigures::peak_force);
   }
   return {
       .name = "peak-curves", .title = {}, .caption = {}, .panels = {middle, peak}, .columns = 2};
@@ -516,6 +497,33 @@ std::string sheet_verdict(const Characterisation& all) {
 
 std::string level_name(const LevelFigures& level, DriveUnit unit) {
   return level.drive ? level_text(*level.drive, to_string(unit)) : "every drive";
+}
+
+void add_level_curve(FigurePanel& panel, FigureSeries line, const LevelFigures& level,
+                     double StrokeFigures::* speed, double StrokeFigures::* force) {
+  // Compression from the quickest on.
+  for (auto s = level.speeds.rbegin(); s != level.speeds.rend(); ++s) {
+    line.x.push_back(-(s->compression.*speed));
+    line.y.push_back(s->compression.*force);
+  }
+
+  // A gap: between the slowest cycles of the directions nothing was measured.
+  line.x.push_back(kNoNumber);
+  line.y.push_back(kNoNumber);
+
+  // Rebound to the quickest.
+  for (const SpeedFigures& s : level.speeds) {
+    line.x.push_back(s.rebound.*speed);
+    line.y.push_back(s.rebound.*force);
+  }
+
+  // The same as dots, which the legend and the reading of values leave out.
+  FigureSeries dots = line;
+  dots.mark = FigureSeries::Mark::Dots;
+  dots.width = 3;
+  dots.is_read = false;
+  panel.series.push_back(std::move(line));
+  panel.series.push_back(std::move(dots));
 }
 
 Document characterisation_document(const CharacterisationInput& input) {

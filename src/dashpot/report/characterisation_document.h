@@ -22,4 +22,9 @@ std::string cycles_csv(const Characterisation& figures, const PrintUnits& units 
 /// "0.5 A", "every drive" where it is not known.
 std::string level_name(const LevelFigures& level, DriveUnit unit);
 
+/// Adds a level's forces over its speeds to a panel, both directions, as a line and as dots on it.
+/// `line` has no points yet.
+void add_level_curve(FigurePanel& panel, FigureSeries line, const LevelFigures& level,
+                     double StrokeFigures::* speed, double StrokeFigures::* force);
+
 }  // namespace dashpot

@@ -166,27 +166,8 @@ FigurePanel peak_panel(const std::vector<ComparedThing>& things, const LevelFigu
     for (const LevelFigures& other : things[k].figures.levels) {
       if (level.drive && other.drive && std::abs(*level.drive - *other.drive) > 0.02 * greatest)
         continue;
-
-      // Compression from the quickest on, a gap, rebound to the quickest.
-      FigureSeries line{.label = things[k].name, .colour = thing_colour(k), .x = {}, .y = {}};
-      for (auto s = other.speeds.rbegin(); s != other.speeds.rend(); ++s) {
-        line.x.push_back(-s->compression.mid_speed);
-        line.y.push_back(s->compression.mid_force);
-      }
-      line.x.push_back(kNoNumber);
-      line.y.push_back(kNoNumber);
-      for (const SpeedFigures& s : other.speeds) {
-        line.x.push_back(s.rebound.mid_speed);
-        line.y.push_back(s.rebound.mid_force);
-      }
-
-      // The same as dots, which the legend and the reading of values leave out.
-      FigureSeries dots = line;
-      dots.mark = FigureSeries::Mark::Dots;
-      dots.width = 3;
-      dots.is_read = false;
-      panel.series.push_back(std::move(line));
-      panel.series.push_back(std::move(dots));
+      add_level_curve(panel, {.label = things[k].name, .colour = thing_colour(k), .x = {}, .y = {}},
+                      other, &StrokeFigures::mid_speed, &StrokeFigures::mid_force);
     }
   return panel;
 }
