@@ -70,13 +70,6 @@ TEST_CASE("what is no unit is refused") {
         "share: 'one' is not a number; write it as 0.25");
 }
 
-TEST_CASE("a voltage-driven model counts per volt") {
-  CHECK(with_drive_unit("N*s/(m*A)", DriveUnit::Volt) == "N*s/(m*V)");
-  CHECK(with_drive_unit("N/A^2", DriveUnit::Volt) == "N/V^2");
-  CHECK(with_drive_unit("N/A", DriveUnit::Ampere) == "N/A");
-  CHECK(with_drive_unit("mA", DriveUnit::Volt) == "mA");
-}
-
 TEST_CASE("a frequency counts turns, an angle over time 2 pi of them, a rate neither") {
   CHECK_CLOSE(parse_quantity("2rad/s", "Hz", "x"), 1 / std::numbers::pi, 1e-15, 0);
   CHECK_CLOSE(parse_quantity("720 deg/s", "Hz", "x"), 2, 1e-15, 0);

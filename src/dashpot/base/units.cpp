@@ -255,15 +255,4 @@ double parse_quantity(std::string_view text, std::string_view si_unit, const std
   return turns(suffix, si_unit, where) * unit.factor * number + unit.offset;
 }
 
-std::string with_drive_unit(std::string_view unit, DriveUnit drive_unit) {
-  std::string out(unit);
-  if (drive_unit == DriveUnit::Ampere) return out;
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const bool starts = k == 0 || !std::isalpha(static_cast<unsigned char>(out[k - 1]));
-    const bool ends = k + 1 == out.size() || !std::isalpha(static_cast<unsigned char>(out[k + 1]));
-    if (out[k] == 'A' && starts && ends) out.replace(k, 1, to_string(drive_unit));
-  }
-  return out;
-}
-
 }  // namespace dashpot

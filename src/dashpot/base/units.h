@@ -4,8 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "dashpot/drive.h"
-
 namespace dashpot {
 
 /// Exponents of the SI base units kg, m, s, A, K.
@@ -29,9 +27,5 @@ Unit require_unit(std::string_view text, const std::string& where);
 /// "1.5 mm", "5N/cm" or a plain number (in SI) in `si_unit`; in Hz, rad/s count as angles. Throws
 /// Error(where, ...) on anything else: a unit of another dimension, Hz of a rate in 1/s.
 double parse_quantity(std::string_view text, std::string_view si_unit, const std::string& where);
-
-/// `unit` (an SI unit text with powers of A, as in a law's table) with V in place of A: parameters
-/// of a model that is driven by a voltage. "N*s/(m*A)" -> "N*s/(m*V)".
-std::string with_drive_unit(std::string_view unit, DriveUnit drive_unit);
 
 }  // namespace dashpot

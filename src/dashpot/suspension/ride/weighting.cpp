@@ -87,8 +87,6 @@ double greatest_running_rms(std::span<const double> x, double dt) {
 
 }  // namespace
 
-std::span<const Weighting> weightings() { return kWeightings; }
-
 const Weighting& find_weighting(std::string_view name, const std::string& where) {
   std::vector<std::string> known;
   for (const Weighting& weighting : kWeightings) {

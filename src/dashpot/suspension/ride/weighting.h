@@ -16,9 +16,7 @@ struct Weighting {
   double f3, f4, q4;      ///< transition from acceleration to velocity
   double f5, q5, f6, q6;  ///< upward step; f5 = 0: none
 };
-/// Wb, Wc, Wd, We, Wf, Wj, Wk.
-std::span<const Weighting> weightings();
-/// Throws Error "unknown weighting 'Wx'; ...".
+/// Wb, Wc, Wd, We, Wf, Wj or Wk. Throws Error "unknown weighting 'Wx'; ...".
 const Weighting& find_weighting(std::string_view name, const std::string& where = {});
 
 /// H at f Hz.
