@@ -9,7 +9,6 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/report/provenance.h"
-#include "data.h"
 #include "production_line.h"
 #include "sequence_sheet.h"
 #include "units.h"

@@ -16,7 +16,6 @@
 #include "dashpot/machine/worn_damper.h"
 #include "dashpot/record/record_file.h"
 #include "dashpot/record/source_files.h"
-#include "dashpot/report/provenance.h"
 
 namespace dashpot::cli {
 namespace {

@@ -5,10 +5,7 @@
 #include <memory>
 
 #include "console.h"
-#include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/error.h"
-#include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/identify/judge/track.h"

@@ -9,7 +9,6 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/ranks.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/registry.h"
 #include "dashpot/identify/many/many.h"
 #include "dashpot/report/many_document.h"
 #include "dashpot/report/words.h"

@@ -1,8 +1,8 @@
 #include <memory>
 
-#include "arguments.h"
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/date.h"
 #include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
 #include "dashpot/error.h"
@@ -12,7 +12,6 @@
 #include "dashpot/report/inspection.h"
 #include "data.h"
 #include "document_text.h"
-#include "results.h"
 #include "units.h"
 
 namespace fs = std::filesystem;

@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "console.h"
 #include "damper_choice.h"
+#include "dashpot/base/date.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/numeric.h"
@@ -15,7 +16,6 @@
 #include "dashpot/report/words.h"
 #include "data.h"
 #include "layout.h"
-#include "results.h"
 
 namespace dashpot::cli {
 namespace {

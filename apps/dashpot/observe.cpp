@@ -14,7 +14,6 @@
 #include "dashpot/base/date.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_result.h"
 #include "dashpot/machine/in_plant_words.h"
 #include "dashpot/record/record_file.h"

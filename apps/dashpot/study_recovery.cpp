@@ -5,7 +5,7 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/law_list.h"
 #include "studies.h"
 #include "studies/recovery/recovery_study.h"
 

@@ -1,9 +1,9 @@
 #include "study_results.h"
 
 #include "console.h"
+#include "dashpot/base/date.h"
 #include "dashpot/base/file.h"
 #include "document_text.h"
-#include "results.h"
 
 namespace dashpot::cli {
 

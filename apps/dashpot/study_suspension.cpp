@@ -2,7 +2,6 @@
 
 #include "console.h"
 #include "dashpot/report/ride_document.h"
-#include "results.h"
 #include "studies.h"
 #include "studies/suspension/own_damper_study.h"
 #include "studies/suspension/suspension_study_document.h"

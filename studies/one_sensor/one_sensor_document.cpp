@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/text.h"
 #include "dashpot/report/words.h"
 #include "studies/one_sensor/one_sensor_parts.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "dashpot/base/parallel.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/law_list.h"
 #include "dashpot/identify.h"
 #include "dashpot/numerics/distributions.h"
 

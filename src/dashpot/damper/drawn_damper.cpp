@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/root.h"
 

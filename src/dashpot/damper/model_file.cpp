@@ -2,7 +2,6 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/file_kind.h"
-#include "dashpot/base/text.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/force_band.h"
 #include "dashpot/damper/kinds/law/law_model.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/law_list.h"
 #include "dashpot/numerics/least_squares.h"
 
 namespace dashpot {

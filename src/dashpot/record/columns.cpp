@@ -4,7 +4,6 @@
 #include <set>
 
 #include "dashpot/base/escape.h"
-#include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"

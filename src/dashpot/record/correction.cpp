@@ -7,7 +7,6 @@
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/record/channel_names.h"
 #include "dashpot/record/statement_text.h"
 #include "dashpot/value.h"
 

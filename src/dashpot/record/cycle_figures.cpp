@@ -10,7 +10,6 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/numerics/median.h"
 #include "dashpot/record/integrate.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "dashpot/base/parallel.h"
-#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/filter.h"
 #include "dashpot/numerics/spectrum.h"

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/text.h"
 #include "dashpot/report/document.h"
 #include "dashpot/report/gnuplot.h"
 

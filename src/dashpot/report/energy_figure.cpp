@@ -5,7 +5,6 @@
 #include "dashpot/record/cycles.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
-#include "dashpot/report/series.h"
 
 namespace dashpot {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/rank.h"
 #include "dashpot/report/gnuplot.h"

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
-#include "dashpot/damper/force_band.h"
 #include "dashpot/report/quantity.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/ranking_words.h"

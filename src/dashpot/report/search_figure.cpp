@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/search_report.h"

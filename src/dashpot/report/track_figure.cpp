@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/text.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/words.h"
 

@@ -6,7 +6,6 @@
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
-#include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/c_subset/c_tokens.h"
 #include "dashpot/suspension/control/sensors.h"

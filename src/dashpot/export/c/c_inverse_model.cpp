@@ -11,7 +11,6 @@
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
-#include "dashpot/export/c_subset/c_tokens.h"
 
 namespace dashpot {
 namespace {

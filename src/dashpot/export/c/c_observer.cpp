@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "dashpot/base/escape.h"
-#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"

@@ -4,7 +4,6 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/error.h"
-#include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/c_subset/c_rewrite.h"

@@ -3,7 +3,6 @@
 #include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/law/law_text.h"
-#include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"

@@ -1,6 +1,5 @@
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
-#include "dashpot/export/c/c_model.h"
 #include "dashpot/export/fmu/fmu.h"
 
 namespace dashpot {

@@ -1,5 +1,4 @@
 #include "dashpot/base/escape.h"
-#include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/fmu/fmu.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "dashpot/base/escape.h"
-#include "dashpot/export/c/c_model.h"
 #include "dashpot/export/onnx/c_trace.h"
 #include "dashpot/export/onnx/live_nodes.h"
 

@@ -6,13 +6,11 @@
 #include "dashpot/damper/kinds/family/physics_information.h"
 #include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/damper/nets/standardise.h"
-#include "dashpot/error.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
 #include "dashpot/identify/fit/family_line_fit.h"
 #include "dashpot/identify/fit/family_physics_fit.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"
-#include "dashpot/identify/fit/training_samples.h"
 #include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {

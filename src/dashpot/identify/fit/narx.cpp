@@ -13,7 +13,6 @@
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/member_report.h"
-#include "dashpot/identify/fit/training_samples.h"
 #include "dashpot/record/time_base.h"
 #include "dashpot/record/trial_parts.h"
 #include "dashpot/split.h"

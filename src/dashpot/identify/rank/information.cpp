@@ -6,7 +6,6 @@
 
 #include "dashpot/damper/law.h"
 #include "dashpot/damper/law_list.h"
-#include "dashpot/damper/registry.h"
 #include "dashpot/identify/fit/uncertainty.h"
 
 namespace dashpot {

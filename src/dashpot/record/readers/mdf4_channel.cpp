@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "dashpot/error.h"
-
 namespace dashpot {
 namespace {
 

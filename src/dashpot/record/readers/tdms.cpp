@@ -9,7 +9,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
-#include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/tdms_scale.h"
 #include "dashpot/record/readers/tdms_segments.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "dashpot/base/data_folder.h"
-#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/columns.h"
 #include "dashpot/record/readers/reader.h"

@@ -10,7 +10,6 @@
 #include "dashpot/numerics/root_mean_square.h"
 #include "dashpot/suspension/lanes/lane_pilot.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
-#include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
 #include "dashpot/suspension/trace.h"
 

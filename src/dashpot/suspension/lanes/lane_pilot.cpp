@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/suspension/lanes/lane_vehicle.h"
-
 namespace dashpot {
 
 LanePilot::Driver::Driver(const BatchVehicle& v)

@@ -11,7 +11,6 @@
 #include "dashpot/error.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/root_mean_square.h"
-#include "dashpot/suspension/ride/ride.h"
 
 namespace dashpot {
 namespace {

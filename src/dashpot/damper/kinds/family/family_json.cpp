@@ -1,4 +1,3 @@
-#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/family/line_family.h"
 #include "dashpot/damper/kinds/family/physics_family.h"

@@ -6,8 +6,6 @@
 #include <limits>
 #include <math.h>  // the C text says pow, not std::pow
 
-#include "dashpot/error.h"
-
 namespace dashpot {
 namespace {
 
