@@ -49,11 +49,14 @@ std::string far_from_expected(const InPlantSetup& asked, const InPlantSetup& set
   const auto& rows = setup.model->parameters;
   std::vector<std::string> words, right;
   for (const PlantUnknown& unknown : asked.unknown) {
+    // Passed over where nothing is expected of it, or about the truth.
     if (!unknown.about) continue;
     const auto truth =
         std::ranges::find(setup.known, unknown.name, &NamedValues::value_type::first);
     const double ratio = truth->second / *unknown.about;
     if (ratio > 1 / kFar && ratio < kFar) continue;
+
+    // Both values in words, and the option that would agree with the file.
     const ParameterRow& row = rows[row_named(rows, unknown.name, setup.model->name, "--true")];
     const std::string unit(row.unit);
     words.push_back(unknown.name + " is truly " + format_number(truth->second, 6) + ' ' + unit +

@@ -68,6 +68,7 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
 
 /// Which numbers of the damper that stands in a family's file are taken, where records state none.
 void say_assumed_damper(const FamilyMember& own, const Dataset& dataset, Console& console) {
+  // Each number that a record lacks, once; and how many records lack any.
   std::vector<std::string> assumed;
   std::size_t records = 0;
   for (const Record& record : dataset.records) {
@@ -81,6 +82,7 @@ void say_assumed_damper(const FamilyMember& own, const Dataset& dataset, Console
     }
     records += lacks;
   }
+
   if (records > 0)
     console.note(
         fmt::format("the damper is not stated in full by {} of {}: taken from the model's "

@@ -74,6 +74,7 @@ DocumentFigure profile_figure(const std::vector<ParameterProfile>& profiles) {
 }  // namespace
 
 void add_advice(const PlantAdvice& advice, DocumentSection& section) {
+  // The best sensor in a sentence, all of them in a table.
   if (!advice.sensors.empty()) {
     const PlantAddition& best = advice.sensors.front();
     section.paragraphs.push_back(
@@ -84,13 +85,17 @@ void add_advice(const PlantAdvice& advice, DocumentSection& section) {
     section.tables.push_back(
         addition_table("Sensors that are not there", "sensor", advice.sensors,
                        "One of them added to the same recordings; mean over plant and damper. What "
-                       "the model lacks "
-                       "is taken to show in it as much as in those that are there."));
+                       "the model lacks is taken to show in it as much as in those that are "
+                       "there."));
   }
+
+  // More of the same sensors: other rides.
   if (!advice.rides.empty())
     section.tables.push_back(addition_table(
         "One more recording", "the first one again, with", advice.rides,
         "Beside one more that is just like the first; as far as the model is right there."));
+
+  // What the recordings have of each number, as a table and as curves.
   if (advice.profiles.empty()) return;
   section.tables.push_back(profile_table(advice.profiles));
   section.figures.push_back(profile_figure(advice.profiles));

@@ -121,6 +121,8 @@ std::string condition_text(const std::vector<const Record*>& records) {
 /// All of an entry behind its files.
 std::string entry_text(const Dataset& dataset, const std::string& file) {
   const std::vector<const Record*> records = records_of(dataset, file);
+
+  // Its columns: channels, the time base, and those that are of no use.
   std::string channels, time, unused;
   std::set<std::string> told;  // each test of a file has readings of its own, all alike
   bool has_drive = false;
@@ -137,6 +139,8 @@ std::string entry_text(const Dataset& dataset, const std::string& file) {
       has_drive = has_drive || reading.channel == "current" || reading.channel == "voltage";
     }
   }
+
+  // What no column says: the level of the drive where there is one.
   const bool driven = dataset.drive_unit != DriveUnit::None;
   const std::string level = has_drive || !driven ? "" : level_text(records);
   return "    channels:\n" + channels + unused + time + level +

@@ -54,16 +54,20 @@ std::vector<std::string> drifting(const ManyReport& report) {
 
 std::string many_verdict(const ManyReport& report) {
   const std::size_t all = report.rows.size(), fitted = report.fitted();
-  const std::size_t flagged = flagged_dampers(report).size();
   std::string text = fmt::format("{}: {} with a result, {} without.", counted(all, "damper"),
                                  fitted, all - fitted);
   if (report.population.judged_columns == 0)
     return text + " Too few, or too alike, to judge them by each other.";
+
+  // How many stand out, beside how many would by chance.
+  const std::size_t flagged = flagged_dampers(report).size();
   text += fmt::format(
       " {} out in at least one of {} quantities; of sound and normal ones, {} would by chance.",
       flagged == 1 ? "1 stands" : fmt::format("{} stand", flagged),
       report.population.judged_columns,
       number_text(report.options.false_alarms * static_cast<double>(report.population.judged), 2));
+
+  // What drifts over the serial number: the first few by name.
   const std::vector<std::string> drifts = drifting(report);
   if (!drifts.empty()) {
     constexpr std::size_t kNamed = 4;
