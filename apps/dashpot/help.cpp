@@ -285,8 +285,7 @@ std::string help_markdown(const std::vector<Command>& commands, const std::vecto
   std::string text =
       "# The command line\n\n"
       "Made by `dashpot --help-markdown`. On a terminal `dashpot help COMMAND` says what most "
-      "users "
-      "need, and `dashpot help COMMAND all` the same as this page.\n\n"
+      "users need, and `dashpot help COMMAND all` the same as this page.\n\n"
       "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, "
       "but the result is not usable; 4 done, but without files of a folder that could not be "
       "read; 130 interrupted.\n";

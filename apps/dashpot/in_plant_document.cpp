@@ -73,8 +73,8 @@ DocumentTable sensor_table(const InPlantReport& report) {
           ? "Errors are rms, after the sensor's offset in the part that was fitted; the time held "
             "back was seen by no fit, and the plant runs free from the first sample on."
           : "Errors are rms, of what a filter of plant and damper expects one sample ahead: "
-            "nothing "
-            "can run free on a road that is not known. The time held back was seen by no fit.";
+            "nothing can run free on a road that is not known. The time held back was seen by no "
+            "fit.";
   return table;
 }
 
@@ -116,8 +116,7 @@ std::vector<std::string> knowable_lines(const InPlantReport& report) {
   if (!report.road_measured) {
     lines.push_back(
         "Nothing measures the road: all unknowns are those under which the sensors are most "
-        "likely, "
-        "along the damper's motion that they tell.");
+        "likely, along the damper's motion that they tell.");
     return lines;
   }
 

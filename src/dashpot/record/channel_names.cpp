@@ -188,10 +188,9 @@ NamedChannel resolve(const std::string& name, const std::string& given) {
 /// Words behind a name that say how it was measured and are no unit: "Force (filtered)".
 constexpr std::string_view kRemarks =
     "measured meas actual filtered filt raw abs absolute rel relative lvdt cell load sensor "
-    "channel "
-    "ch ai top bottom left right front rear upper lower piston rod damper coil rms nominal signal "
-    "input output in out total dynamic static axial hhmmss iso date datetime clock local utc x y z "
-    "no nr";
+    "channel ch ai top bottom left right front rear upper lower piston rod damper coil rms nominal "
+    "signal input output in out total dynamic static axial hhmmss iso date datetime clock local "
+    "utc x y z no nr";
 
 bool is_remark(std::string_view text) {
   constexpr std::string_view kClock = "hh mm ss";  // "hh:mm:ss"; alone "mm" is a unit
@@ -238,11 +237,11 @@ std::string unknown_unit(const std::string& unit, std::string_view channel) {
 bool meant_as_unit(std::string_view text, std::string_view channel) {
   constexpr std::string_view kForeign =
       "tonf tf ton kip kips pdl dyn ozf ips fps mph kmh kph knots mil mils thou pt cts counts "
-      "count "
-      "bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r pound "
-      "pounds kilogram kilograms newton newtons kilonewton kilonewtons micron microns mms cms mps "
-      "mmps cmps inps minute minutes hour hours minuten sekunden stunden millisekunden minutos "
-      "segundos horas zoll zentimeter pulgadas polegadas milimetros centimetros metros \" ''";
+      "count bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r "
+      "pound pounds kilogram kilograms newton newtons kilonewton kilonewtons micron microns mms "
+      "cms mps mmps cmps inps minute minutes hour hours minuten sekunden stunden millisekunden "
+      "minutos segundos horas zoll zentimeter pulgadas polegadas milimetros centimetros metros \" "
+      "''";
   const std::vector<std::string> usual = split(std::string(usual_units(channel)), ' ');
   std::string word = lower(text);
   if (const bool is_quotient = word.ends_with("-1"); is_quotient) word.resize(word.size() - 2);

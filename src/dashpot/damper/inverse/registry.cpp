@@ -88,10 +88,9 @@ constexpr std::array kSchemes{
                   .title = "Network from motion, wanted force and past current",
                   .equation = "the network chang_zhou of 'dashpot invert'",
                   .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
-                  .remarks =
-                      "Taught on the forward model when it is made: motions to 3 Hz, +-2 cm, "
-                      "random currents. Steps "
-                      "of 5 ms. 'dashpot invert' teaches it over a range of yours and keeps it.",
+                  .remarks = "Taught on the forward model when it is made: motions to 3 Hz, +-2 "
+                             "cm, random currents. Steps of 5 ms. 'dashpot invert' teaches it over "
+                             "a range of yours and keeps it.",
                   .needs_force = false,
                   .make = make_neural},
     InverseScheme{.name = "neural_displacement",

@@ -11,9 +11,9 @@ const Law kTanhKwok = static_law<TanhKwok, tanh_kwok_force>({
     .equation = "F = c v + k x + alpha tanh(beta v + delta sgn(x)) + f0",
     .source = "Kwok, Ha, Nguyen, Li, Samali 2006, Sensors and Actuators A 132, 441-451; defaults: "
               "its example set at 1 A, recalled, not verified",
-    .remarks = "Algebraic, fast, smooth in speed. Assumes a motion centred on x = 0 (subtract the "
-               "mean stroke); the "
-               "force jumps where the stroke crosses zero. k may be negative. sgn(0) = 0.",
+    .remarks =
+        "Algebraic, fast, smooth in speed. Assumes a motion centred on x = 0 (subtract the mean "
+        "stroke); the force jumps where the stroke crosses zero. k may be negative. sgn(0) = 0.",
     .states = {},
     .params =
         {

@@ -25,8 +25,7 @@ const ControlLaw kFrequencyEstimation{
     .title = "Frequency-estimation-based",
     .equation =
         "f = sqrt(sum d^2 / sum x^2) / 2 pi over a window;  c_max where f < low or middle <= f < "
-        "high, else "
-        "c_min",
+        "high, else c_min",
     .source = "Lozoya-Santos, recalled",
     .remarks = "Deflection sensor only. The bands are examples.",
     .parameters = {{"window", "s", 0.5, 1e-3, 100, "over which the sums forget"},

@@ -147,8 +147,7 @@ const ControlLaw kClippedOptimal{
     .equation = "i = i_max where (F_wanted - F) F > 0, else i_min;  F_wanted = K [q, q']",
     .source =
         "Dyke, Spencer, Sain and Carlson, Smart Mater. Struct. 5 (1996) 565; their regulator is an "
-        "LQG on "
-        "accelerations",
+        "LQG on accelerations",
     .remarks = "Needs the measured force and the whole state. At a force of 0 it stays off.",
     .parameters = kWeights,
     .needs_plant_state = true,

@@ -16,9 +16,7 @@ namespace {
 
 constexpr std::string_view kBook =
     "Karnopp, Crosby and Harwood, J. Eng. Ind. 96 (1974) 619, recalled; forms as in Savaresi et "
-    "al., "
-    "Semi-Active "
-    "Suspension Control Design for Vehicles, 2010, recalled";
+    "al., Semi-Active Suspension Control Design for Vehicles, 2010, recalled";
 
 }  // namespace
 
@@ -57,8 +55,7 @@ const ControlLaw kHybrid{.name = "hybrid",
                          .title = "Hybrid of skyhook and groundhook",
                          .equation =
                              "F = G (a s + (1 - a) g), within c_min d ... c_max d;\ns = z' where "
-                             "z' d > 0, g = -z_us' where "
-                             "-z_us' d > 0",
+                             "z' d > 0, g = -z_us' where -z_us' d > 0",
                          .source = "Ahmadian, recalled",
                          .remarks = "",
                          .parameters = {{"gain", "N*s/m", 2000, 0, 1e7, "G"},

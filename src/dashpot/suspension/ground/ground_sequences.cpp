@@ -117,8 +117,7 @@ const std::array kSequences{
          .equation = "z = sum sqrt(2 G_d(n) dn) cos(2 pi n s + phi),  G_d(n) = G_d(n0) (n / n0)^-2",
          .source = "ISO 8608",
          .remarks = "With a track width, left and right are those of an isotropic surface. The "
-                    "first metres "
-                    "rise from level.",
+                    "first metres rise from level.",
          .params = {kRoughness,
                     kSpeedRow,
                     kLength,
@@ -132,8 +131,7 @@ const std::array kSequences{
                     .equation = "z = sum sqrt(2 G_d(n) / L) cos(2 pi n s + phi), n = 1/L, 2/L, ...",
                     .source = "ISO 8608",
                     .remarks = "A hundredth of the work of the sum of cosines; repeats itself "
-                               "after L, the length in points "
-                               "rounded up to a power of two.",
+                               "after L, the length in points rounded up to a power of two.",
                     .params = {kRoughness, kSpeedRow, kLength, kLeast, kGreatestRow, kTrackWidth}},
                    make_harmonic_road},
     GroundSequence{

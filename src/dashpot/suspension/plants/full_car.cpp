@@ -79,8 +79,7 @@ const PlantModel kFullCar{
     .source = "Ikenaga et al. 2000, recalled",
     .remarks =
         "theta > 0 lowers the front, phi > 0 lifts the left. The source's track of 3 m is not a "
-        "car's: 1.5 m "
-        "stands here. Left wheels meet the road's first track, right ones its second.",
+        "car's: 1.5 m stands here. Left wheels meet the road's first track, right ones its second.",
     .parameters = {{"mass", "kg", 1500, 1, 1e6, "of the body"},
                    {"pitch_inertia", "kg*m^2", 2160, 0.1, 1e7, "of the body"},
                    {"roll_inertia", "kg*m^2", 460, 0.1, 1e7, "of the body"},

@@ -37,8 +37,7 @@ std::array<FamilyPreset, 6> make_presets() {
            "best; the remaining error there is the spread of builds, kept in the model. The field "
            "enters by the current and the fluid's viscosity, not by the yield stress. Fitted also "
            "to runs from rest in the middle of the motion, since the motion before a record is not "
-           "always "
-           "known.",
+           "always known.",
        .form = FamilyForm::Gates,
        .path_states = 5,
        .velocity_lags = 5},
@@ -91,11 +90,9 @@ std::array<FamilyPreset, 6> make_presets() {
            "resistances, they take energy out. The flow's field is the yield stress of the "
            "conditions; the seal's friction may grow with the current over the currents of the "
            "fit, so that the coil does not matter. Geometry acts on the flow as physics has it, "
-           "and "
-           "on its spring as on a column of fluid, times powers of gap, length, area and "
-           "viscosity. Every number has a value that it "
-           "shrinks to, that of physics where there is one; how much is chosen by "
-           "leaving designs out of the training.",
+           "and on its spring as on a column of fluid, times powers of gap, length, area and "
+           "viscosity. Every number has a value that it shrinks to, that of physics where there is "
+           "one; how much is chosen by leaving designs out of the training.",
        .form = FamilyForm::Physics},
   }};
 }
