@@ -1,7 +1,9 @@
 #include "dashpot/base/text.h"
 
+#include <array>
 #include <cmath>
 
+#include "dashpot/base/find_row.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -54,4 +56,17 @@ TEST_CASE("a mistyped word finds its neighbour") {
   CHECK(suggest("Bingham", {}).find("DASHPOT_DATA") != std::string::npos);
   CHECK(suggest("Bingham", known) ==
         "did you mean 'bingham'? known: bingham, modified_bouc_wen, tanh_kwok");
+}
+
+TEST_CASE("a row of a table is found by its name, or named in the error") {
+  struct Row {
+    std::string_view name;
+    int value;
+  };
+  static constexpr std::array kRows{Row{"alpha", 1}, Row{"beta", 2}};
+  static constexpr std::array kPointers{&kRows[0], &kRows[1]};
+  CHECK(&find_row(kRows, "beta", "letter", "--letter") == &kRows[1]);
+  CHECK(&find_row(kPointers, "alpha", "letter", "--letter") == &kRows[0]);
+  CHECK(message_of([] { find_row(kRows, "betta", "letter", "--letter"); }) ==
+        "--letter: unknown letter 'betta'; did you mean 'beta'? known: alpha, beta");
 }

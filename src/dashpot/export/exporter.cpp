@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/text.h"
-#include "dashpot/error.h"
+#include "dashpot/base/find_row.h"
 #include "dashpot/export.h"
 #include "dashpot/export/c/c_block.h"
 #include "dashpot/export/c/c_source.h"
@@ -63,12 +62,7 @@ void add_files(std::vector<ExportedFile> more, std::vector<ExportedFile>& files)
 std::span<const Exporter> exporters() { return kExporters; }
 
 const Exporter& find_exporter(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const Exporter& exporter : kExporters) {
-    if (exporter.name == name) return exporter;
-    known.emplace_back(exporter.name);
-  }
-  throw Error(where, "unknown format '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kExporters, name, "format", where);
 }
 
 }  // namespace dashpot

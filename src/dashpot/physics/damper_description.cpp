@@ -8,6 +8,7 @@
 #include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/file_kind.h"
+#include "dashpot/base/find_row.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -143,12 +144,7 @@ double read_field(const Value& value, const DescriptionField& field) {
 }
 
 const DescriptionField& find_description_field(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const DescriptionField& field : kFields) {
-    if (field.name == name) return field;
-    known.emplace_back(field.name);
-  }
-  throw Error(where, "unknown field '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kFields, name, "field", where);
 }
 
 void require_possible(const DamperDescription& d, const std::string& where) {

@@ -1,9 +1,6 @@
 #include "dashpot/damper/inverse/network_presets.h"
 
-#include <algorithm>
-
-#include "dashpot/base/text.h"
-#include "dashpot/error.h"
+#include "dashpot/base/find_row.h"
 
 namespace dashpot {
 namespace {
@@ -93,11 +90,7 @@ std::vector<std::string> inverse_network_names() {
 }
 
 const InverseNetworkPreset& find_inverse_network(std::string_view name, const std::string& where) {
-  const auto presets = inverse_network_presets();
-  const auto found = std::ranges::find(presets, name, &InverseNetworkPreset::name);
-  if (found != presets.end()) return *found;
-  throw Error(where, "unknown inverse network '" + std::string(name) + "'",
-              suggest(name, inverse_network_names()));
+  return find_row(inverse_network_presets(), name, "inverse network", where);
 }
 
 }  // namespace dashpot

@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/text.h"
+#include "dashpot/base/find_row.h"
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/damper/inverse/train_inverse.h"
-#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -145,9 +144,7 @@ std::vector<std::string> inverse_names() {
 }
 
 const InverseScheme& find_inverse(std::string_view name, const std::string& where) {
-  const auto found = std::ranges::find(kSchemes, name, &InverseScheme::name);
-  if (found != kSchemes.end()) return *found;
-  throw Error(where, "unknown inverse '" + std::string(name) + "'", suggest(name, inverse_names()));
+  return find_row(kSchemes, name, "inverse", where);
 }
 
 }  // namespace dashpot

@@ -3,6 +3,7 @@
 
 #include "dashpot/base/child_process.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/find_row.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/export/fmu/fmu.h"
@@ -47,12 +48,7 @@ const FmuPlatform& own_platform() {
 }
 
 const FmuPlatform& find_platform(std::string_view name) {
-  std::vector<std::string> known;
-  for (const FmuPlatform& platform : kPlatforms) {
-    if (platform.name == name) return platform;
-    known.emplace_back(platform.name);
-  }
-  throw Error("--platforms", "unknown platform '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kPlatforms, name, "platform", "--platforms");
 }
 
 std::string compile_shared_library(const std::vector<ExportedFile>& files,

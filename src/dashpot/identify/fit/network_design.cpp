@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "dashpot/base/find_row.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
 #include "dashpot/error.h"
@@ -41,12 +42,7 @@ constexpr std::array kOutputRanges{Word{"linear", OutputRange::Linear},
 template <class Choice, std::size_t N>
 Choice parse_word(std::string_view text, const std::string& where,
                   const std::array<Word<Choice>, N>& words) {
-  std::vector<std::string> known;
-  for (const Word<Choice>& word : words) {
-    if (word.name == text) return word.choice;
-    known.emplace_back(word.name);
-  }
-  throw Error(where, "unknown word '" + std::string(text) + "'", suggest(text, known));
+  return find_row(words, text, "word", where).choice;
 }
 
 template <class Choice, std::size_t N>
@@ -184,12 +180,7 @@ constexpr std::array kSettings{
 std::span<const NetworkSetting> network_settings() { return kSettings; }
 
 const NetworkSetting& find_network_setting(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const NetworkSetting& setting : kSettings) {
-    if (setting.name == name) return setting;
-    known.emplace_back(setting.name);
-  }
-  throw Error(where, "unknown setting '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kSettings, name, "setting", where);
 }
 
 void parse_network_setting(std::string_view text, const std::string& option,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "dashpot/base/find_row.h"
 #include "dashpot/base/settings.h"
 #include "dashpot/base/text.h"
 #include "dashpot/controller.h"
@@ -122,12 +123,7 @@ double strut_stiffness(const Plant& plant) {
 std::span<const ControlLaw* const> control_laws() { return kControlLaws; }
 
 const ControlLaw& find_control_law(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const ControlLaw* law : kControlLaws) {
-    if (law->name == name) return *law;
-    known.emplace_back(law->name);
-  }
-  throw Error(where, "unknown controller '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kControlLaws, name, "controller", where);
 }
 
 ControllerPointer make_controller(const std::string& text, const ControlContext& context,

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/text.h"
-#include "dashpot/error.h"
+#include "dashpot/base/find_row.h"
 
 namespace dashpot {
 
@@ -19,12 +18,7 @@ constexpr std::array kPlants{&kBuilding, &kFullCar, &kHalfCar, &kQuarterCar, &kS
 std::span<const PlantModel* const> plant_models() { return kPlants; }
 
 const PlantModel& find_plant_model(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const PlantModel* model : kPlants) {
-    if (model->name == name) return *model;
-    known.emplace_back(model->name);
-  }
-  throw Error(where, "unknown plant '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kPlants, name, "plant", where);
 }
 
 Plant make_plant(const PlantModel& model, const NamedValues& values, const std::string& where) {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "dashpot/base/find_row.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/constants.h"
@@ -87,12 +88,7 @@ double greatest_running_rms(std::span<const double> x, double dt) {
 }  // namespace
 
 const Weighting& find_weighting(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const Weighting& weighting : kWeightings) {
-    if (weighting.name == name) return weighting;
-    known.emplace_back(weighting.name);
-  }
-  throw Error(where, "unknown weighting '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kWeightings, name, "weighting", where);
 }
 
 std::complex<double> weighting_response(const Weighting& weighting, double f) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/text.h"
+#include "dashpot/base/find_row.h"
 #include "dashpot/damper/kinds/family/family_force.h"
 #include "dashpot/damper/nets/mlp_json.h"
 #include "dashpot/error.h"
@@ -35,12 +35,7 @@ constexpr struct {
 }  // namespace
 
 FamilyInput family_input_named(std::string_view name, const std::string& where) {
-  std::vector<std::string> known;
-  for (const auto& input : kInputs) {
-    if (input.name == name) return input.read;
-    known.emplace_back(input.name);
-  }
-  throw Error(where, "unknown input '" + std::string(name) + "'", suggest(name, known));
+  return find_row(kInputs, name, "input", where).read;
 }
 
 FamilyNetwork::FamilyNetwork(std::vector<std::string> inputs, std::vector<Mlp> members,
