@@ -281,6 +281,29 @@ TEST_CASE("knee: two lines are found again, one line and a progressive curve hav
   CHECK(contains(fit_knee({0.1, 0.2}, {1, 2}).why_no_knee, "fewer than three"));
 }
 
+TEST_CASE("knee: beyond the speeds that could show it none is told, and no error of one") {
+  std::vector<double> v, slow, fast;
+  for (int k = 1; k <= 10; ++k) {
+    v.push_back(0.05 * k);
+    slow.push_back(500 * std::min(1.0, v.back() / 0.06) + 300 * v.back() + (k % 2 ? 0.1 : -0.1));
+    fast.push_back(50 + 2000 * std::min(v.back(), 0.47) + (k % 2 ? 0.1 : -0.1));
+  }
+
+  // The line above a slow knee stands; below it, none leads to v = 0.
+  const KneeFit below = fit_knee(v, slow);
+  CHECK(!below.knee.is_told());
+  CHECK(contains(below.why_no_knee, "second slowest speed or below"));
+  CHECK_CLOSE(below.yield.value, 500, 0.01, 0);
+  CHECK(!below.at_rest.is_told());
+
+  // Above a fast one there is no line: that below it stands.
+  const KneeFit above = fit_knee(v, fast);
+  CHECK(!above.knee.is_told());
+  CHECK(contains(above.why_no_knee, "second fastest speed or above"));
+  CHECK_CLOSE(above.at_rest.value, 50, 0.05, 0);
+  CHECK(above.yield.value == above.at_rest.value);
+}
+
 namespace {
 
 /// Loops of one damper: a knee at 50 mm/s and 500 N above it, each cycle up and down by 10 N and a
@@ -335,7 +358,7 @@ TEST_CASE("what one part alone says, or a knee that comes with one of them, has 
   // Four speeds, each of a record: three have no knee.
   const std::vector<double> v{0.01, 0.01, 0.02, 0.02, 0.05, 0.05, 0.1, 0.1};
   std::vector<double> f;
-  for (const double speed : v) f.push_back(500 * std::min(1.0, speed / 0.02) + 1000 * speed);
+  for (const double speed : v) f.push_back(500 * std::min(1.0, speed / 0.03) + 1000 * speed);
   const KneeFit few = fit_knee_of_parts(v, f, {2, 4, 6, 8});
   CHECK(few.knee.is_told());
   CHECK(!std::isfinite(few.yield.error));

@@ -146,13 +146,21 @@ KneeFit knee_of(const MeanLoop& course) {
                              : fit_knee_of_parts(course.speed, course.force, course.ends);
 }
 
-/// Knee, friction and static force from the course of force over speed in both directions.
-void tell_from(LevelFigures& level, const MeanLoop& rebound, const MeanLoop& compression) {
+/// Knee, friction and static force from the course of force over speed in both directions, which
+/// may lead to v = 0 below a knee, or not. Where it does not, friction cannot be told, and the
+/// static force comes from the lines above the knees.
+void tell_from(LevelFigures& level, const MeanLoop& rebound, const MeanLoop& compression,
+               bool leads_to_rest) {
   level.rebound = knee_of(rebound);
   level.compression = knee_of(compression);
   level.yield = half_of(level.rebound.yield, level.compression.yield, 1);
-  level.friction = half_of(level.rebound.at_rest, level.compression.at_rest, 1);
-  level.static_force = half_of(level.compression.at_rest, level.rebound.at_rest, -1);
+  const bool has_knee = level.rebound.knee.is_told() || level.compression.knee.is_told();
+  if (leads_to_rest || !has_knee) {
+    level.friction = half_of(level.rebound.at_rest, level.compression.at_rest, 1);
+    level.static_force = half_of(level.compression.at_rest, level.rebound.at_rest, -1);
+  }
+  if (!level.friction.is_told())
+    level.static_force = half_of(level.compression.yield, level.rebound.yield, -1);
 }
 
 /// Mid-stroke forces over speed of one direction (`sign`: 1 for the rebound, -1 for the
@@ -183,7 +191,7 @@ LevelFigures figures_of_level(const std::vector<Member>& members, const Dataset&
     std::vector<Member> by_record = members;
     std::ranges::stable_sort(by_record, {}, &Member::record);
     tell_from(level, mid_stroke_forces(by_record, &CycleFigures::rebound, 1),
-              mid_stroke_forces(by_record, &CycleFigures::compression, -1));
+              mid_stroke_forces(by_record, &CycleFigures::compression, -1), true);
     return level;
   }
 
@@ -199,13 +207,8 @@ LevelFigures figures_of_level(const std::vector<Member>& members, const Dataset&
     add_mean_loop(channels, *member.cycle, 1, rebound);
     add_mean_loop(channels, *member.cycle, -1, compression);
   }
-  tell_from(level, rebound, compression);
-
   // Below the knee of a loop the force still builds up after the reversal, and leads nowhere.
-  if (level.rebound.knee.is_told() || level.compression.knee.is_told()) {
-    level.friction = {};
-    level.static_force = half_of(level.compression.yield, level.rebound.yield, -1);
-  }
+  tell_from(level, rebound, compression, false);
   return level;
 }
 
@@ -243,6 +246,10 @@ std::vector<std::string> remarks_of(const LevelFigures& level) {
                     "and hold their hysteresis and inertia, and friction cannot be told apart from "
                     "the field force; run {} or more speeds, the fastest {} times the slowest",
                     kSpeedsForCurve, kSpreadForCurve));
+  for (const auto& [direction, fit] :
+       {std::pair{"rebound", &level.rebound}, {"compression", &level.compression}})
+    if (fit->is_knee_beyond_speeds)
+      remarks.push_back(fmt::format("no knee of the {}: {}", direction, fit->why_no_knee));
   if (level.friction.is_told() && level.friction.error > 0.1 * std::abs(level.friction.value))
     remarks.push_back("the friction is told to no better than 10 %: record slower cycles");
   if (level.yield.is_told() && !std::isfinite(level.yield.error))

@@ -17,6 +17,7 @@ constexpr double kSignificance = 0.01;
 constexpr std::array kWidths = {0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5};  // of the knee's speed
 constexpr std::size_t kSpeedsForWidth = 6;
 constexpr int kPlaces = 120;
+constexpr double kOffEdge = 1e-4, kErrorsOffEdge = 2;  // of the fastest place; standard errors
 
 /// The bend: 0 at v = 0, slope 0 far below the knee and 1 far above it.
 double bend(double v, double knee, double width) {
@@ -102,6 +103,7 @@ std::pair<double, double> errors_of(std::span<const double> v, const BentLine& l
 struct Bend {
   double knee = 0, width = 0;
   BentLine line;
+  double first = 0, last = 0;  // between which it was looked for
 };
 Bend best_bend(std::span<const double> v, std::span<const double> f,
                const std::vector<double>& speeds) {
@@ -120,6 +122,7 @@ Bend best_bend(std::span<const double> v, std::span<const double> f,
     }
   for (double step = (high - low) / kPlaces; step > 1e-5 * high; step /= 2)
     for (const double knee : {best.knee - step, best.knee + step}) attempt(knee, best.width);
+  best.first = low, best.last = high;
   return best;
 }
 
@@ -185,15 +188,31 @@ KneeFit fit_knee(const std::vector<double>& speed, const std::vector<double>& fo
       errors_of(speed, bent.line, bent.knee, bent.width, bent.line.squares / left);
   fit.at_rest.error = rest_error;
 
+  // One whose place would be beyond the speeds comes to lie at the last of them, but for noise.
+  const double margin = kOffEdge * bent.last + kErrorsOffEdge * knee_error;
+  const bool is_at_first = bent.knee - bent.first < margin,
+             is_at_last = bent.last - bent.knee < margin;
+
   // Far above the knee the bend is v - knee - (what makes it 0 at v = 0).
   const double start = 0.5 * (std::hypot(bent.knee, bent.width) - bent.knee);
   fit.yield = {fit.at_rest.value - bent.line.coefficients[2] * (bent.knee + start), rest_error};
-  if (above < kDegressive * below)
-    fit.knee = {bent.knee, knee_error};
-  else
+  if (above >= kDegressive * below)
     fit.why_no_knee = above > below ? "the force grows faster at higher speed: progressive"
                                     : "the slope hardly changes";
-  if (!fit.knee.is_told()) fit.yield = fit.at_rest;
+  else if (is_at_first || is_at_last)
+    fit.is_knee_beyond_speeds = true;
+  else
+    fit.knee = {bent.knee, knee_error};
+  if (!fit.knee.is_told() && !fit.is_knee_beyond_speeds) fit.yield = fit.at_rest;
+
+  // Beyond the speeds one of the lines stands on one of them alone, and leads nowhere.
+  if (fit.is_knee_beyond_speeds && is_at_last) {
+    fit.why_no_knee = "it lies at the second fastest speed or above; record faster ones";
+    fit.yield = fit.at_rest;
+  } else if (fit.is_knee_beyond_speeds) {
+    fit.why_no_knee = "it lies at the second slowest speed or below; record slower ones";
+    fit.at_rest = {};
+  }
   return fit;
 }
 
@@ -212,8 +231,10 @@ KneeFit fit_knee_of_parts(const std::vector<double>& speed, const std::vector<do
   }
 
   // Figures of a curve with a knee and of one without are not the same figures.
-  const bool are_alike = std::ranges::all_of(
-      without, [&](const KneeFit& other) { return other.knee.is_told() == fit.knee.is_told(); });
+  const bool are_alike = std::ranges::all_of(without, [&](const KneeFit& other) {
+    return other.knee.is_told() == fit.knee.is_told() &&
+           other.at_rest.is_told() == fit.at_rest.is_told();
+  });
   for (Measured KneeFit::* number : {&KneeFit::at_rest, &KneeFit::yield, &KneeFit::knee})
     (fit.*number).error = are_alike ? jackknife_error(without, number) : kNoNumber;
   return fit;

@@ -16,7 +16,9 @@ struct Measured {
 /// The course of the force of one direction over speed: a straight line below the knee and another
 /// one above it, joined by a hyperbola.
 struct KneeFit {
-  Measured at_rest;  ///< N, size of the force towards which it tends at v -> 0
+  /// N, size of the force towards which it tends at v -> 0; not a number where the knee lies below
+  /// the speeds that could show it.
+  Measured at_rest;
   /// N, where the line above the knee meets v = 0, extrapolated: friction and field force
   /// together; at_rest without a knee.
   Measured yield;
@@ -25,12 +27,14 @@ struct KneeFit {
   double width = 0;                         ///< m/s, half width of the bend
   double scatter = 0;                       ///< N, rms of the points about it
   std::string why_no_knee = {};             ///< in words; empty where there is one
+  bool is_knee_beyond_speeds = false;       ///< there is one, where too few of them show its place
 };
 
 /// Fits points of speed (m/s, >= 0) and size of force (N), of equal size. A knee is told where two
 /// lines explain the points clearly better than one (F test, 99 %), at least two of distinct speed
-/// lie on either side, and the force grows by less than 0.7 times as much above it. With fewer than
-/// three points nothing is told. The standard errors take the points to scatter independently.
+/// lie on either side and it is at neither end of these, and the force grows by less than 0.7 times
+/// as much above it. With fewer than three points nothing is told. The standard errors take the
+/// points to scatter independently.
 KneeFit fit_knee(const std::vector<double>& speed, const std::vector<double>& force);
 
 /// The same of points in parts, as those of one cycle of a loop or of one record; ends: behind the
