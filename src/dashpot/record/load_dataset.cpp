@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
@@ -21,6 +23,7 @@
 #include "dashpot/record/stated_conditions.h"
 #include "dashpot/record/stretches.h"
 #include "dashpot/record/unit_doubts.h"
+#include "dashpot/record/what_varies.h"
 
 namespace fs = std::filesystem;
 
@@ -523,6 +526,7 @@ class Loader {
       std::erase_if(record.channels,
                     [](const Channel& c) { return c.name == "current" || c.name == "voltage"; });
     }
+    if (!had_one) note_unlike_fields();
     dataset_.notes.push_back(
         had_one ? "'drive: none' in " + stated_in_ +
                       ": currents and voltages are not used, the drive is taken as one constant"
@@ -530,6 +534,28 @@ class Loader {
                       "no drive channel: taken as one constant, unknown drive, as of a passive "
                       "damper; if the current differs between records, give it in the file names "
                       "(run_0.5A.csv), in manifest.csv or in a dataset file"));
+  }
+
+  /// Yield stresses that differ while all else that is stated of a damper does not are levels of a
+  /// field that nobody named: they are no one drive.
+  void note_unlike_fields() {
+    std::map<std::vector<std::pair<std::string, double>>, std::vector<double>> fields;
+    for (const Record& record : dataset_.records) {
+      auto damper = record.conditions;
+      std::erase_if(damper, [](const auto& named) { return named.first == "yield_stress"; });
+      for (const auto& [name, value] : record.conditions)
+        if (name == "yield_stress") add_new(fields[damper], value);
+    }
+    const auto most = std::ranges::max_element(
+        fields, {}, [](const auto& damper) { return damper.second.size(); });
+    if (most == fields.end() || most->second.size() < 2) return;
+    const auto [least, greatest] = std::ranges::minmax(most->second);
+    drive_notes_.push_back(fmt::format(
+        "one damper was recorded at {} fields, its yield stress is {} ... {} Pa, but no "
+        "current is stated: only models of a family tell them apart, all else takes "
+        "the records as of one drive; give the currents as 'level: [0, 0.5, ...]' in a "
+        "dataset file",
+        most->second.size(), format_number(least), format_number(greatest)));
   }
 
   /// How drives were read where names and columns left a choice: first among the notes, since a

@@ -48,3 +48,18 @@ TEST_CASE("a family's JSON file that cannot be used is refused with its place") 
   CHECK(refused_family("\"gap\": 0.001", "\"gap\": \"wide\"").find("not a number") !=
         std::string::npos);
 }
+
+TEST_CASE("field levels of a family without currents are told, and not taken for one in silence") {
+  const TemporaryFolder folder;
+  const std::string level =
+      R"({"time": [0, 0.04, 0.08], "displace": [0, 1, 2], "velocity": [1, 1, 1], "force": [1, 2, 3]})";
+  folder.write("dampers.json", R"({"a": [)" + level + ", " + level + "]}");
+  folder.write("inp_dampers.json",
+               R"({"a": {"Ty": [200, 9000], "viscocidad": 0.1, "Ap": 5e-4, "Ag": 1e-4, "h": 0.001,
+                         "L": 0.006}})");
+  const Dataset data = load_dataset({(folder.path() / "dampers.json").string()});
+  CHECK(data.drive_unit == DriveUnit::None);
+  CHECK_MESSAGE(
+      contains(data.notes.front(), "recorded at 2 fields, its yield stress is 200 ... 9000 Pa"),
+      data.notes.front());
+}
