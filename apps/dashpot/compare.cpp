@@ -43,6 +43,13 @@ bool is_model_file(const std::string& path) {
   return read_file(path).find("\"dashpot-model\"") != std::string::npos;
 }
 
+/// Whether two paths lead to one thing, or to two model files of the same content.
+bool are_same(const std::string& one, const std::string& other) {
+  std::error_code unknown;
+  if (std::filesystem::equivalent(one, other, unknown)) return true;
+  return is_model_file(one) && is_model_file(other) && read_file(one) == read_file(other);
+}
+
 /// Short names where they stay apart: a model file's without folder and ending.
 void shorten_names(std::vector<ComparedThing>& things) {
   std::vector<std::string> names;
@@ -90,6 +97,12 @@ int run_compare(const CompareSettings& settings, Console& console) {
       comparison_document({things, speeds, console.command_line(), DASHPOT_VERSION, date_now()});
   document.units = units;
   print_document(document, console);
+
+  // Without a difference between the things, none of the figures says anything about them.
+  for (std::size_t k = 1; k < settings.things.size(); ++k)
+    if (are_same(settings.things.front(), settings.things[k]))
+      console.warn(fmt::format("{} and {} are the same: a comparison with itself",
+                               settings.things.front(), settings.things[k]));
 
   // A model that has seen the recordings is not judged by them.
   for (const ComparedThing& thing : things)

@@ -55,6 +55,19 @@ TEST_CASE("compare: two campaigns of one damper hardly differ, beside their nois
   CHECK(speeds == 8);
 }
 
+TEST_CASE("compare: a model beside itself, or a copy of it, is told" *
+          doctest::test_suite("long")) {
+  const Campaigns& all = campaigns();
+  const std::string model = all.models + "/bingham.json",
+                    copy = (all.folder.path() / "copy.json").string();
+  std::filesystem::copy_file(model, copy);
+  for (const std::string& other : {model, copy})
+    CHECK(contains(run_dashpot("compare " + model + " " + other).output,
+                   "bingham.json and " + other + " are the same"));
+  CHECK(!contains(run_dashpot("compare " + model + " " + all.models + "/tanh_kwok.json").output,
+                  "are the same"));
+}
+
 TEST_CASE("compare: models over recordings, with fit; a warning where these taught a model" *
           doctest::test_suite("long")) {
   const Campaigns& all = campaigns();
