@@ -1,5 +1,7 @@
 #include "command.h"
 
+#include <algorithm>
+
 #include "dashpot/base/text.h"
 
 namespace dashpot::cli {
@@ -37,14 +39,17 @@ std::string Command::last_word() const { return name.substr(name.rfind(' ') + 1)
 
 const Command& find_command(const std::vector<Command>& commands, const std::string& word) {
   std::vector<std::string> names;
+  std::string meant = word;
   for (const Command& command : commands) {
     if (command.last_word() == word) return command;
     names.push_back(command.last_word());
+    if (std::ranges::find(command.likewise, word) != command.likewise.end())
+      meant = command.last_word();
   }
   throw UsageError(
       "",
       std::string("unknown ") + (word.starts_with('-') ? "option" : "command") + " '" + word + "'",
-      suggest(word, names));
+      suggest(meant, names));
 }
 
 }  // namespace dashpot::cli

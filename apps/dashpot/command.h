@@ -86,8 +86,9 @@ struct Command {
   std::vector<Option> options;
   std::string example;  ///< worked, with comments: what to type and what comes of it
   std::function<int(Console&)> run;
-  std::vector<Command> subcommands = {};  ///< of a group, which has neither options nor `run`
-  bool over_ranks = false;                ///< shares its work among the processes of mpirun
+  std::vector<Command> subcommands = {};   ///< of a group, which has neither options nor `run`
+  bool over_ranks = false;                 ///< shares its work among the processes of mpirun
+  std::vector<std::string> likewise = {};  ///< words that others call it by, which are no command
 
   std::string last_word() const;
 };

@@ -194,7 +194,8 @@ Command evaluate_command() {
                                .takes = Takes::File,
                                .required = true}},
                   .example = std::string(kEvaluateExample),
-                  .run = [settings](Console& console) { return run_evaluate(*settings, console); }};
+                  .run = [settings](Console& console) { return run_evaluate(*settings, console); },
+                  .likewise = {"validate", "predict", "test"}};
 
   append(command.options, data_options(settings->data));
   command.options.push_back(

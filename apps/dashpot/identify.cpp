@@ -101,7 +101,8 @@ Command identify_command() {
           "DIR: the same command goes on where it was interrupted.",
       .options = ranking_options(settings->ranking),
       .example = std::string(kIdentifyExample),
-      .run = [settings](Console& console) { return run_identify(*settings, console); }};
+      .run = [settings](Console& console) { return run_identify(*settings, console); },
+      .likewise = {"fit", "train", "calibrate"}};
 
   // The effort, what a fit starts from, and what judges it beside the records left out.
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),

@@ -132,7 +132,8 @@ Command inspect_command() {
           "velocity was measured, also compares it with the velocity derived from displacement.",
       .options = data_options(settings->data),
       .example = std::string(kInspectExample),
-      .run = [settings](Console& console) { return run_inspect(*settings, console); }};
+      .run = [settings](Console& console) { return run_inspect(*settings, console); },
+      .likewise = {"import", "read", "load", "show"}};
 
   // Everything is printed here, so --verbose would do nothing.
   std::erase_if(command.options,

@@ -143,6 +143,8 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right" *
       {"idntify data", "unknown command 'idntify'; did you mean 'identify'?"},
       {"--frobnicate", "unknown option '--frobnicate'"},
       {"identify", "DATA is missing"},
+      {"import data", "unknown command 'import'; did you mean 'inspect'?"},
+      {"fit data", "unknown command 'fit'; did you mean 'identify'?"},
       {"identify data --stars 4", "unknown option '--stars'; did you mean '--starts'?"},
       {"identify data --starts", "--starts: needs a value"},
       {"identify data --starts abc", "--starts: 'abc' is not a whole number"},
