@@ -75,7 +75,10 @@ std::string Project::without_folder(std::string text) const {
 }
 
 Project::Project(const fs::path& folder) {
-  make_folder(folder);
+  // A misspelt name must not become a project that holds nothing.
+  if (std::error_code none; !fs::is_directory(folder, none))
+    throw Error(folder.string(), "is no folder",
+                "name that of the recordings, or make an empty one for a new project (mkdir)");
   folder_ = fs::canonical(folder);
   make_folder(folder_ / ".studio");
   mark_without_recordings(folder_ / "fits");

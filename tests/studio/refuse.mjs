@@ -33,6 +33,11 @@ const {port} = studio;
 assert.throws(() => execFileSync(program, ["studio", "--no-open", folder], {stdio: "pipe", timeout: 10000}),
   (error) => error.status === 1 && /another studio/.test(error.stderr));
 
+// A misspelt folder is no new project.
+assert.throws(() => execFileSync(program, ["studio", "--no-open", join(outside, "projet")], {stdio: "pipe", timeout: 10000}),
+  (error) => error.status === 1 && /projet: is no folder/.test(error.stderr));
+assert.ok(!existsSync(join(outside, "projet")));
+
 const own = await open(studio);
 const {Cookie, "X-Dashpot-Key": key, ...stranger} = own;
 const {token} = JSON.parse((await send(studio.port, {method: "POST", path: "/api/token", headers: own, body: "{}"})).text);
