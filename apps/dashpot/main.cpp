@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -170,6 +171,20 @@ void settle_instructions() {
   if (level && *level) use_simd(level, "the environment's DASHPOT_SIMD");
 }
 
+/// Who set DASHPOT_DATA to what is no folder can still ask for help, and for the version.
+void settle_data(const std::vector<std::string>& words, Console& console) {
+  const char* stated = std::getenv("DASHPOT_DATA");
+  if (std::error_code none; !stated || !*stated || std::filesystem::is_directory(stated, none))
+    return;
+  constexpr std::array kAnywhere = {"help", "version", "--version", "--help-markdown"};
+  const auto asks = [](const std::string& word) { return word == "--help" || word == "-h"; };
+  if (!words.empty() && std::ranges::find(kAnywhere, words.front()) == kAnywhere.end() &&
+      std::ranges::none_of(words, asks))
+    return;
+  console.warn(std::string("DASHPOT_DATA: '") + stated + "' is no folder; passed over here");
+  unsetenv("DASHPOT_DATA");
+}
+
 int run_words(const std::vector<std::string>& words, Console& console) {
   if (words.empty() || words.front() == "--help" || words.front() == "-h") {
     console.print(overview(all_commands(), console));
@@ -219,6 +234,7 @@ void explain(std::string_view message, Console& console) {
 int run_and_explain(const std::vector<std::string>& words, Console& console) {
   try {
     settle_instructions();
+    settle_data(words, console);
     const int code = run_words(words, console);
     console.finish();
     leave_ranks();

@@ -79,4 +79,11 @@ TEST_CASE("data of Dashpot that are not there are named, not what was looked for
   CHECK(wrong.exit_code == 1);
   CHECK_MESSAGE(contains(wrong.output, "DASHPOT_DATA: '" + none + "' is no folder"), wrong.output);
   CHECK(run_dashpot("simulate --list plants", "DASHPOT_DATA=").exit_code == 0);
+
+  // Help and the version need none of them.
+  for (const char* words : {"", "--help", "--version", "simulate --help", "help rank"}) {
+    const ProgramResult asked = run_dashpot(words, "DASHPOT_DATA=" + none);
+    CHECK(asked.exit_code == 0);
+    CHECK_MESSAGE(contains(asked.output, "'" + none + "' is no folder; passed over"), asked.output);
+  }
 }
