@@ -28,6 +28,15 @@ Record run(const std::string& name, double millimetres, double newtons) {
 
 }  // namespace
 
+TEST_CASE("a copy of a record is told, also where its name says another drive") {
+  std::vector<Record> records{run("first", 10, 900), run("second", 10, 901), run("copy", 10, 900)};
+  records.back().drive_level = 2;
+  const std::vector<Suspect> found = doubts_about_repeats(records);
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().record == "copy");
+  CHECK(contains(found.front().why, "its force is that of first in every sample"));
+}
+
 TEST_CASE("of repetitions the one whose force is another damper's is told") {
   const std::vector<Record> three{run("first", 10, 900), run("other", 10.1, 1440),
                                   run("last", 10, 870)};
@@ -44,7 +53,7 @@ TEST_CASE("of repetitions the one whose force is another damper's is told") {
 
 TEST_CASE("repetitions differ by warmth, and other motions, drives and conditions are none") {
   std::vector<Record> records{run("cold", 10, 900), run("warm", 10, 750), run("farther", 20, 2000),
-                              run("driven", 10, 1800), run("unlike", 10, 1800)};
+                              run("driven", 10, 1800), run("unlike", 10, 1801)};
   records[3].drive_level = 2;
   records[4].conditions = {{"gap", 1e-3}};
   CHECK(doubts_about_repeats(records).empty());

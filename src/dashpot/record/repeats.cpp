@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "dashpot/base/text.h"
@@ -31,6 +32,27 @@ bool is_repeat(const Size& one, const Size& other) {
          close(one.speed, other.speed);
 }
 
+/// Records whose force is that of one before, sample for sample, as no measurement comes twice.
+std::vector<Suspect> copies(std::span<const Record> records) {
+  const auto less = [](const Record* a, const Record* b) {
+    return a->find("force")->samples < b->find("force")->samples;
+  };
+  std::set<const Record*, decltype(less)> seen(less);
+  std::vector<Suspect> found;
+  for (const Record& record : records) {
+    const Channel* force = record.find("force");
+    if (!force || !(spread_of(force->samples) > 0)) continue;
+    const auto [first, is_new] = seen.insert(&record);
+    if (!is_new)
+      found.push_back(
+          {record.name,
+           "its force is that of " + (*first)->name +
+               " in every sample: a copy counts twice, and judges a model by what taught "
+               "it; leave one of the two out"});
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Suspect> doubts_about_repeats(std::span<const Record> records) {
@@ -49,7 +71,7 @@ std::vector<Suspect> doubts_about_repeats(std::span<const Record> records) {
 
   // Each that is far from the one in the middle, by size of the force.
   constexpr double kUnlike = 1.3;  // times
-  std::vector<Suspect> found;
+  std::vector<Suspect> found = copies(records);
   for (const std::vector<Size>& here : motions) {
     std::vector<Size> sorted = here;
     std::ranges::stable_sort(sorted, {}, &Size::force);

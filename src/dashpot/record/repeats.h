@@ -10,7 +10,8 @@ namespace dashpot {
 /// it, that another has which moves as far and as fast (within 5 %) at the same constant drive and
 /// under the same conditions. That is another damper, another load cell, gain or unit, or a current
 /// that is not what was written down. Of three and more those are named that differ from the middle
-/// one, of two the later one.
+/// one, of two the later one. Before them, copies: records whose force is that of another, sample
+/// for sample.
 std::vector<Suspect> doubts_about_repeats(std::span<const Record> records);
 
 }  // namespace dashpot

@@ -52,8 +52,8 @@ TEST_CASE("a family's JSON file that cannot be used is refused with its place") 
 TEST_CASE("field levels of a family without currents are told, and not taken for one in silence") {
   const TemporaryFolder folder;
   const std::string level =
-      R"({"time": [0, 0.04, 0.08], "displace": [0, 1, 2], "velocity": [1, 1, 1], "force": [1, 2, 3]})";
-  folder.write("dampers.json", R"({"a": [)" + level + ", " + level + "]}");
+      R"({"time": [0, 0.04, 0.08], "displace": [0, 1, 2], "velocity": [1, 1, 1], "force": )";
+  folder.write("dampers.json", R"({"a": [)" + level + "[1, 2, 3]}, " + level + "[4, 5, 6]}]}");
   folder.write("inp_dampers.json",
                R"({"a": {"Ty": [200, 9000], "viscocidad": 0.1, "Ap": 5e-4, "Ag": 1e-4, "h": 0.001,
                          "L": 0.006}})");
