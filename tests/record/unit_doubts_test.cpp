@@ -50,6 +50,17 @@ TEST_CASE("a record of usual sizes raises no doubt of its units, nor does one at
   CHECK(doubts_about_units(at_rest).empty());
 }
 
+TEST_CASE("currents that are negative in all records are told, those of both signs are not") {
+  std::vector<Record> records{usual_record(), usual_record()};
+  std::ranges::fill(records[0].find("current")->samples, 0.001);
+  std::ranges::fill(records[1].find("current")->samples, -0.5);
+  const auto doubt = doubt_about_currents(records);
+  REQUIRE(doubt);
+  CHECK(contains(doubt->why, "its current is negative, as that of all records: -0.5 A"));
+  std::ranges::fill(records[0].find("current")->samples, 0.5);
+  CHECK(!doubt_about_currents(records));
+}
+
 TEST_CASE("sizes that no MR damper has are told with column, likelier unit and what to write") {
   CHECK(doubt_about("current", 1000, "column I [A]") ==
         "the current (column 'I [A]') reaches 500 A: is its unit A right? No MR damper does so; in "

@@ -152,7 +152,7 @@ std::vector<std::string> doubts_about_units(const Record& record) {
 std::optional<Suspect> doubt_about_currents(std::span<const Record> records) {
   constexpr UsualSize kDriving{"current", 3e-3, 50, false, "A"};
   const Record* strongest = nullptr;
-  double largest = 0;
+  double largest = 0, highest = 0;
   std::set<double> levels;
   for (const Record& record : records) {
     const Channel* current = record.find("current");
@@ -160,8 +160,18 @@ std::optional<Suspect> doubt_about_currents(std::span<const Record> records) {
     levels.insert(record.drive_level.value_or(0));
     const auto [low, high] = std::ranges::minmax(current->samples);
     const double here = std::max(std::abs(low), std::abs(high));
+    highest = std::max(highest, high);
     if (here > largest) largest = here, strongest = &record;
   }
+
+  // A coil asks for no direction, and what drives a model later is positive.
+  constexpr double kNoise = 0.02, kFlows = 0.05;  // of the largest; A
+  if (strongest && largest > kFlows && highest <= kNoise * largest)
+    return Suspect{strongest->name,
+                   "its current is negative, as that of all records: " + format_number(-largest) +
+                       " A; a force does not ask which way it flows, but a model of these "
+                       "recordings knows nothing of positive ones: 'sign: -1' for current in a "
+                       "dataset file turns it round"};
   if (!strongest || levels.size() < 2 || largest >= kDriving.least) return std::nullopt;
 
   const Channel& current = strongest->channel("current");

@@ -19,7 +19,7 @@ std::vector<std::string> doubts_about_units(const Record& record);
 
 /// Records at several currents of which none is above some mA, read in another unit than A: most
 /// likely it was A. A single record, or records at one level, may be at 0 A. Says so of the record
-/// with the largest.
+/// with the largest. So it does of currents that are negative in all records.
 std::optional<Suspect> doubt_about_currents(std::span<const Record> records);
 
 /// s between samples, from which on a motion of a damper is hardly followed.
