@@ -53,6 +53,17 @@ TEST_CASE("nothing speaks against a sound record, nor against one that rests") {
   CHECK(doubts_about(at_rest).empty());
 }
 
+TEST_CASE("a force that has lost its sign is told; one that gas keeps at one sign is not") {
+  Record record = sound_record();
+  for (double& force : samples(record, "force")) force = std::abs(force - 60);
+  CHECK(contains(only_doubt(record), "one sign whichever way the damper goes"));
+  for (const double gas : {-800.0, -900.0, 900.0}) {
+    record = sound_record();
+    for (double& force : samples(record, "force")) force += gas;
+    CHECK(doubts_about(record).empty());
+  }
+}
+
 TEST_CASE("a force that sticks while the damper moves is told with its time") {
   Record record = sound_record();
   std::fill_n(samples(record, "force").begin() + 600, 200, 123.5);

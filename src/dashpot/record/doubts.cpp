@@ -481,6 +481,41 @@ std::optional<std::string> clipped_or_stuck_force(const Record& record, const Sa
   return clipped ? clipped : stuck_force(record, force, displacement, high - low);
 }
 
+/// The value below which that share of them lies; they are put into another order.
+double quantile(Samples& values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+/// A force without its direction: it is of one sign and falls at either end of the stroke far below
+/// what it is in its middle both ways. A gas force that keeps the sign has its least in the middle,
+/// against compression, and a spring at one of the ends.
+std::optional<std::string> unsigned_force(const Samples& force, const Samples& displacement) {
+  constexpr double kMiddle = 0.5, kEnds = 0.6;  // of half of the stroke
+  constexpr double kFar = 0.3, kWeakest = 0.1;
+  const auto [least, most] = std::ranges::minmax(force);
+  const auto [low, high] = std::ranges::minmax(displacement);
+  if (least * most < 0 || least == most || low == high) return std::nullopt;
+
+  // How far along the stroke each sample is: -1 and 1 at its ends.
+  Samples middle;
+  double below = std::numeric_limits<double>::infinity(), above = below;
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double place = (2 * displacement[k] - low - high) / (high - low);
+    const double size = std::abs(force[k]);
+    if (std::abs(place) < kMiddle) middle.push_back(size);
+    if (place < -kEnds) below = std::min(below, size);
+    if (place > kEnds) above = std::min(above, size);
+  }
+  if (middle.empty() || std::max(below, above) > kFar * quantile(middle, kWeakest))
+    return std::nullopt;
+  return "the force has one sign whichever way the damper goes, and is least at both ends of the "
+         "stroke: it seems to be a size that has lost its direction; record or export it with its "
+         "sign";
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about(const Record& record) {
@@ -513,6 +548,7 @@ std::vector<std::string> doubts_about(const Record& record) {
     });
     checks.emplace_back([&] { return stuck_velocity(record, x); });
     checks.emplace_back([&] { return unlike_velocity(record, x); });
+    if (force) checks.emplace_back([&] { return unsigned_force(force->samples, x); });
     if (force)
       checks.emplace_back([&] { return clipped_or_stuck_force(record, force->samples, x); });
   }
