@@ -179,6 +179,10 @@ DASHPOT_API dashpot_status dashpot_recordings_describe(const dashpot_recordings*
 /// of {"file", "why"}: results are those of the others.
 DASHPOT_API dashpot_status dashpot_recordings_unread(const dashpot_recordings* recordings,
                                                      char** json);
+/// What speaks against recordings, which are used nevertheless, as a JSON array of {"record",
+/// "why"}: a unit that no damper has, a force that stands still or has lost its sign ...
+DASHPOT_API dashpot_status dashpot_recordings_suspects(const dashpot_recordings* recordings,
+                                                       char** json);
 
 typedef struct dashpot_record_info {
   const char* name;  ///< as `condition`: valid until the recordings change or are freed

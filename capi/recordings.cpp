@@ -7,6 +7,7 @@
 #include "dashpot/base/units.h"
 #include "dashpot/record/channel_names.h"
 #include "dashpot/record/conditions.h"
+#include "dashpot/record/doubts.h"
 #include "dashpot/record/drive_levels.h"
 #include "dashpot/record/stretches.h"
 #include "dashpot/value.h"
@@ -91,6 +92,8 @@ void add(dashpot_recordings& recordings, const dashpot_table& table) {
     if (drive_unit == DriveUnit::None) built.record.drive_level = 0;
     recordings.name_rests.push_back(split_name(name).rest);
     std::ranges::move(built.readings, std::back_inserter(recordings.dataset.readings));
+    for (std::string& why : doubts_about(built.record))
+      recordings.dataset.suspects.push_back({built.record.name, std::move(why)});
     records.push_back(std::move(built.record));
   }
 }
@@ -190,6 +193,18 @@ dashpot_status dashpot_recordings_unread(const dashpot_recordings* recordings, c
     for (const PassedOver& file : recordings->dataset.unread)
       files.push_back(Value::object({{"file", file.file}, {"why", file.why}}));
     *json = copy_text(format_json(files, false));
+  });
+}
+
+dashpot_status dashpot_recordings_suspects(const dashpot_recordings* recordings, char** json) {
+  return guarded([&] {
+    require(json, "json");
+    *json = nullptr;
+    require(recordings, "recordings");
+    Value suspects = Value::array();
+    for (const Suspect& suspect : recordings->dataset.suspects)
+      suspects.push_back(Value::object({{"record", suspect.record}, {"why", suspect.why}}));
+    *json = copy_text(format_json(suspects, false));
   });
 }
 

@@ -56,6 +56,7 @@ std::map<std::string, Call> null_calls() {
       {"recordings_add", [] { return dashpot_recordings_add(nullptr, nullptr); }},
       {"recordings_describe", [] { return dashpot_recordings_describe(nullptr, nullptr); }},
       {"recordings_unread", [] { return dashpot_recordings_unread(nullptr, nullptr); }},
+      {"recordings_suspects", [] { return dashpot_recordings_suspects(nullptr, nullptr); }},
       {"recordings_get_info", [] { return dashpot_recordings_get_info(nullptr, 0, nullptr); }},
       {"recordings_channel", [] { return dashpot_recordings_channel(nullptr, 0, 0, nullptr); }},
       {"understand_column", [] { return dashpot_understand_column(nullptr, nullptr); }},

@@ -158,6 +158,17 @@ class Identification(InFolder):
         with self.assertWarnsRegex(UserWarning, "has seen 1 of 1 records: these errors are no judgement"):
             self.assertEqual(model.evaluate(recordings)["records_seen"], 1)
 
+    def test_what_speaks_against_a_recording_is_warned_of(self):
+        t, x, v, i, _ = bingham(0.5)
+        force = 500 * np.tanh(v / 0.05) + 1000 * v
+        recordings = dashpot.Recordings()
+        with self.assertWarnsRegex(UserWarning, "suspect: sizes: the force has one sign whichever way"):
+            recordings.add({"t_s": t, "x_m": x, "i_A": i, "F_N": np.abs(force)}, name="sizes")
+        self.assertIn("suspect: the force has one sign", recordings.describe())
+        np.savetxt(self.folder / "run.csv", np.c_[t, 1000 * x, i, force], delimiter=",", header="t_s,x,i_A,F_N", comments="")
+        with self.assertWarnsRegex(UserWarning, "suspect: run: the displacement .* is its unit m right"):
+            dashpot.Recordings(self.folder)
+
     def test_a_gap_in_time_ends_a_recording(self):
         X, y = recording(0.5)
         t, x, v, i = X.T

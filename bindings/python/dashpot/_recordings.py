@@ -20,7 +20,8 @@ class Recordings:
     recognise: look among the known published recordings; velocity_cutoff: Hz, of the filter that velocity is
     derived with (None: from the motion).
 
-    A file of a folder that cannot be read is left out, with a warning that says why.
+    A file of a folder that cannot be read is left out, with a warning that says why. What speaks against a recording,
+    such as a unit that no damper has, is warned of, too: describe() lists it all.
     """
 
     def __init__(
@@ -39,6 +40,7 @@ class Recordings:
         self._core = _core._Recordings.load([os.fspath(path) for path in several], as_json(options))
         for file in json.loads(self._core.unread()):
             warnings.warn(f"not read: {file['why']}", stacklevel=2)
+        self._warn_of_suspects(0)
 
     def add(
         self,
@@ -64,8 +66,19 @@ class Recordings:
             there = ", ".join(str(name) for name in names) or "none"
             raise _core.Error(f"table: no name tells a channel (there are {there}); 'force [N]', 'x [mm]', 'time [s]'")
         stated = None if conditions is None else as_json(dict(conditions))
+        before = len(json.loads(self._core.suspects()))
         self._core.add(arrays, name, sample_time, stated)
+        self._warn_of_suspects(before)
         return self
+
+    def _warn_of_suspects(self, first: int) -> None:
+        """Warns of those from the first on; of many, of some."""
+        shown = 3
+        suspects = json.loads(self._core.suspects())[first:]
+        for suspect in suspects[:shown]:
+            warnings.warn(f"suspect: {suspect['record']}: {suspect['why']}", stacklevel=3)
+        if len(suspects) > shown:
+            warnings.warn(f"suspect: {len(suspects) - shown} more; describe() lists them", stacklevel=3)
 
     def __len__(self) -> int:
         return len(self._core)

@@ -317,6 +317,7 @@ PYBIND11_MODULE(_core, module) {
       .def("add", &Recordings::add)
       .def("describe", &Recordings::describe)
       .def("unread", &Recordings::unread)
+      .def("suspects", &Recordings::suspects)
       .def("record", &Recordings::record);
   py::class_<Ranking>(module, "_Ranking", py::custom_type_setup(only_made_by_dashpot))
       .def("__len__", &Ranking::count)

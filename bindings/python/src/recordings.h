@@ -75,6 +75,12 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
     return text.take();
   }
 
+  std::string suspects() const {
+    Text text;
+    check(dashpot_recordings_suspects(get(), text.out()));
+    return text.take();
+  }
+
   /// Name, condition, sample time and columns of one: views of the library's memory, which `self`
   /// keeps.
   static py::dict record(const py::object& self, size_t place) {

@@ -771,10 +771,6 @@ std::vector<BuiltRecord> build_records(std::vector<RawTable> stretches,
     settle_inertia(record, uses);
     if (!shared.as_given) note_direction(record, stretches[k], uses);
     add_drive(record, contexts[k].level, all[k].drive_note);
-    // Records of files are doubted together, when all are there.
-    if (shared.as_given)
-      for (std::string& doubt : doubts_about_units(record))
-        record.notes.push_back(std::move(doubt));
   }
   return all;
 }
