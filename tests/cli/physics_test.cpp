@@ -23,6 +23,16 @@ TEST_CASE("physics: every step with its unit, as text and as JSON") {
   CHECK(!contains(result.output, "at rest nothing flows"));
 }
 
+TEST_CASE("physics: a damper that is neither known nor a file is told with the known ones") {
+  const ProgramResult result = run_dashpot("physics pasenger_car");
+  CHECK(result.exit_code == 1);
+  CHECK_MESSAGE(contains(result.output,
+                         "unknown damper 'pasenger_car'; did you mean 'passenger_car'? known: "),
+                result.output);
+  CHECK(
+      contains(run_dashpot("physics nothere.yaml").output, "nothere.yaml: there is no such file"));
+}
+
 TEST_CASE("physics: fields can be changed, listed, and are refused with their names" *
           doctest::test_suite("long")) {
   const std::string wide = run_dashpot("physics passenger_car --set gap=2mm").output;

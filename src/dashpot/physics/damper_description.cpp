@@ -264,8 +264,13 @@ DamperDescription named_description(const std::string& name) {
 
 DamperDescription find_description(const std::string& damper) {
   const std::vector<std::string> known = description_names();
-  return std::find(known.begin(), known.end(), damper) != known.end() ? named_description(damper)
-                                                                      : load_description(damper);
+  const bool is_known = std::find(known.begin(), known.end(), damper) != known.end();
+
+  // A word without dot or slash that is no file is meant as a name.
+  std::error_code none;
+  const bool is_file =
+      damper.find_first_of("./") != std::string::npos || std::filesystem::exists(damper, none);
+  return is_known || !is_file ? named_description(damper) : load_description(damper);
 }
 
 std::vector<std::string> description_names() { return data_names("dampers", ".yaml"); }
