@@ -28,6 +28,9 @@ TEST_CASE("columns are recognised by their names") {
       {"Force/kN", "", "force", "kN"},
       {"measured force", "N", "force", "N"},
       {"I [A]", "", "current", "A"},
+      {"data.I_A", "", "current", "A"},
+      {"run1.data.F_N", "", "force", "N"},
+      {"data.x_mm", "", "displacement", "mm"},
       {"T_C", "", "temperature", "C"},
       {"T [s]", "", "time", "s"},
       {"current_A_nominal", "", "current", ""},
@@ -78,7 +81,7 @@ TEST_CASE("columns are recognised by their names") {
 TEST_CASE("what may mean two things, or is no measurement, is not used") {
   for (const char* column :
        {"A", "V", "T", "Y", "fs", "Sample Number", "target force", "displacement setpoint [mm]",
-        "Weg Soll [mm]", "Peak force [N]", "x_F(2)", "force [mm]", ""}) {
+        "Weg Soll [mm]", "setpoint.I_A", "Peak force [N]", "x_F(2)", "force [mm]", ""}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").channel.empty());
   }

@@ -434,6 +434,17 @@ std::string as_typed(std::string_view column) {
   return typed;
 }
 
+/// "I_A" of "data.I_A", a field of a structure; "" of any other name.
+std::string_view own_name_of_field(std::string_view column) {
+  const std::size_t point = column.rfind('.');
+  const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; };
+  if (point == std::string_view::npos || point == 0 || point + 1 == column.size() ||
+      !std::isalpha(static_cast<unsigned char>(column[point + 1])) ||
+      !std::ranges::all_of(column, is_word))
+    return {};
+  return column.substr(point + 1);
+}
+
 /// "x(2)": one column of a matrix in a MAT file.
 bool is_matrix_column(std::string_view name) {
   const std::size_t open = name.rfind('(');
@@ -497,6 +508,11 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
   NamedChannel unknown = with_unknown_unit(whole);
   if (!unknown.channel.empty()) return unknown;
   if (found.unit.empty()) found.unit = unit_among_words(whole, found.channel);
+
+  // A letter is a name by itself only: that of a structure before it says where it stands.
+  const std::string_view own = own_name_of_field(trim(column));
+  if (found.channel.empty() && found.problem.empty() && !own.empty() && !is_wish(whole))
+    return recognise_channel(own, row_unit);
   return sized(std::move(found));
 }
 
