@@ -59,6 +59,19 @@ bool has(const std::string& text, const std::string& part) {
 
 }  // namespace
 
+TEST_CASE("where no column is the drive, those that are not used are named") {
+  const TemporaryFolder folder;
+  std::string text = "t_s,x_mm,F_N,I set [A],duty [%]\n";
+  for (int k = 0; k < 100; ++k)
+    text += std::to_string(0.01 * k) + ',' + std::to_string(10 * std::sin(0.2 * k)) + ',' +
+            std::to_string(300 * std::cos(0.2 * k)) + ",0.5,50\n";
+  const Dataset data = load_dataset({folder.write("run.csv", text)});
+  CHECK(data.drive_unit == DriveUnit::None);
+  CHECK(std::ranges::any_of(data.notes, [](const std::string& note) {
+    return contains(note, "if it is a column that is not used ('I set [A]', 'duty [%]'), state");
+  }));
+}
+
 TEST_CASE("a current sensor whose zero is off by less than nothing reads 0 A, and no -0 A") {
   const TemporaryFolder folder;
   std::string text = "t_s,x_mm,F_N,I_A\n";

@@ -533,7 +533,21 @@ class Loader {
                 : std::string(
                       "no drive channel: taken as one constant, unknown drive, as of a passive "
                       "damper; if the current differs between records, give it in the file names "
-                      "(run_0.5A.csv), in manifest.csv or in a dataset file"));
+                      "(run_0.5A.csv), in manifest.csv or in a dataset file") +
+                      unused_columns());
+  }
+
+  /// "; if it is in a column that is not used ('I set [A]'), state that there"; "" where all are.
+  std::string unused_columns() const {
+    constexpr std::size_t kShown = 4;
+    std::vector<std::string> unused;
+    for (const ColumnReading& reading : dataset_.readings)
+      if (reading.channel.empty()) add_new(unused, "'" + reading.column + "'");
+    if (unused.empty()) return {};
+    const bool are_many = unused.size() > kShown;
+    if (are_many) unused.resize(kShown);
+    return "; if it is a column that is not used (" + join(unused, ", ") +
+           (are_many ? " ..." : "") + "), state that there";
   }
 
   /// Yield stresses that differ while all else that is stated of a damper does not are levels of a
