@@ -85,6 +85,16 @@ TEST_CASE("what may mean two things, or is no measurement, is not used") {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").channel.empty());
   }
+  for (const char* column :
+       {"motor current [A]", "actuator_current_A", "load cell voltage (V)", "LVDT voltage (V)",
+        "lateral force (N)", "gas force [kN]", "inertia force"}) {
+    CAPTURE(std::string(column));
+    CHECK(recognise_channel(column, "").channel.empty());
+    CHECK(contains(recognise_channel(column, "").problem, "is not the damper's by its name"));
+  }
+  for (const char* column :
+       {"coil current [A]", "valve current (mA)", "damper force (N)", "force load cell (N)"})
+    CHECK(!recognise_channel(column, "").channel.empty());
   CHECK(recognise_channel("V", "").problem.find("velocity or voltage") != std::string::npos);
 }
 

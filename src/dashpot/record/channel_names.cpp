@@ -106,6 +106,21 @@ bool is_wish(std::string_view name) {
                      [](const std::string& w) { return contains_word(kWishes, w); });
 }
 
+/// Words of a name that say whose quantity it is, where it is not the damper's: of a drive those of
+/// the bench and of sensors that answer with a voltage, of a force those of its parts.
+bool is_of_another(std::string_view name, std::string_view channel) {
+  constexpr std::string_view kNotOfCoil =
+      "motor actuator shaker pump servo spindle lvdt cell loadcell bridge strain gauge "
+      "potentiometer laser accelerometer";
+  constexpr std::string_view kNotOfDamper = "gas spring inertia inertial lateral transverse";
+  const bool is_drive = channel == "current" || channel == "voltage";
+  if (!is_drive && channel != "force") return false;
+  const std::vector<std::string> words = words_of(name);
+  return std::ranges::any_of(words, [&](const std::string& word) {
+    return contains_word(is_drive ? kNotOfCoil : kNotOfDamper, word);
+  });
+}
+
 bool fits(std::string_view channel, const Unit& unit) {
   return parse_unit(si_unit(channel))->dimension == unit.dimension;
 }
@@ -177,6 +192,8 @@ NamedChannel resolve(const std::string& name, const std::string& given) {
   // Refuse what is no measurement, and units of another dimension.
   const std::string channel = channels.empty() ? known : channels.front();
   if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name", false};
+  if (is_of_another(name, channel))
+    return {{}, unit, "'" + name + "' is not the damper's by its name", false};
   if (parsed && !fits(channel, *parsed))
     return {{}, unit, "unit '" + unit + "' does not fit " + channel, false};
 
