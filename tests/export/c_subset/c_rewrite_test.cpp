@@ -25,6 +25,33 @@ TEST_CASE(
         "single precision: cannot hold 1e39; export in double precision");
 }
 
+TEST_CASE("C text in single precision: its own tanh, within 4e-7 and never beyond 1") {
+  CHECK(single("f(tanh(x), atanh(y))") == "f(tanh_single(x), atanhf(y))");
+  const std::string code = single("#include <math.h>\n\ndouble f(double x) { return tanh(x); }\n");
+  const TemporaryFolder folder;
+  folder.write("f.c", code);
+  folder.write("main.c", R"(#include <math.h>
+float f(float x);
+int main(void) {
+  double worst = 0, most = 0;
+  unsigned k;
+  for (k = 0; k < 2000000; ++k) {
+    const float x = (k < 1000000) ? 1e-5F * (float)k : powf(10.0F, 1e-5F * (float)k - 30.0F);
+    const double t = (double)f(x), error = fabs(t - tanh((double)x)) / fmin(1.0, (double)x);
+    worst = (x > 0.0F && error > worst) ? error : worst;
+    most = fmax(most, fabs(t));
+    if (f(-x) != -f(x)) return 3;
+  }
+  if (!isnan(f(nanf("")))) return 4;
+  return (worst < 5e-7 && most == 1.0) ? 0 : 1;
+}
+)");
+  const ProgramResult result = run_program("cd '" + folder.path().string() +
+                                           "' && cc -std=c99 -O2 f.c main.c -lm -o f && ./f");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+}
+
 TEST_CASE("C text in single precision: marked numbers are exchanged") {
   CHECK(single("const double tolerance = 1e-9; /* single precision: 1e-5 */") ==
         "const float tolerance = 1e-5F; /* double precision: 1e-9 */");

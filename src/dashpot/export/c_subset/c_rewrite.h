@@ -9,7 +9,8 @@ namespace dashpot {
 // Rewrites C text token by token; all that is not named here stays byte for byte.
 
 /// C code in double precision as code of this precision. In single precision
-/// * `double` becomes `float`, `exp` becomes `expf`, and so on for the functions of math.h;
+/// * `double` becomes `float`, `exp` becomes `expf`, and so on for the functions of math.h, but
+///   tanh, for which the code gets a function of its own behind #include <math.h>;
 /// * 0.5 becomes 0.5F; what is too small for a float becomes the smallest normal one;
 /// * a number that depends on the precision says so itself, by a mark behind it,
 ///       const double tolerance = 1e-9; // with: /* single precision: 1e-5 */

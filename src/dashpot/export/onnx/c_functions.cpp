@@ -89,7 +89,8 @@ constexpr std::array kFunctions{
              [](Graph& g, std::span<const Node> a) {
                return g.divide(g.apply(Op::Sin, a[0]), cosine(g, a[0]));
              }},
-    Function{"tanh", of_one<Op::Tanh>}};
+    Function{"tanh", of_one<Op::Tanh>},
+    Function{"tanh_single", of_one<Op::Tanh>}};  // of C in single precision
 
 const Function* find(std::string_view name) {
   for (const std::string_view known :

@@ -236,10 +236,11 @@ CTrace::Result CTrace::cast(const CExpr& expr) {
 CTrace::Result CTrace::call(const CExpr& expr) {
   std::vector<Result> arguments;
   for (const CExpr& part : expr.parts) arguments.push_back(evaluate(part));
-  const auto function = program_.functions.find(expr.text);
-  if (function != program_.functions.end()) return call_function(function->second, arguments);
-  if (!is_c_function(expr.text))
+  if (!is_c_function(expr.text)) {
+    const auto function = program_.functions.find(expr.text);
+    if (function != program_.functions.end()) return call_function(function->second, arguments);
     throw Error("C text", "calls '" + expr.text + "', which no graph has");
+  }
   std::vector<Node> numbers;
   for (const Result& argument : arguments) numbers.push_back(number_of(argument));
   return of_number(c_function(graph_, expr.text, numbers), CType::Kind::Real);
