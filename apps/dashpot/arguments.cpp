@@ -93,7 +93,15 @@ struct StoreWords {
   void operator()(std::uint64_t* target) const {
     *target = integer_in<std::uint64_t>(words.back(), option);
   }
-  void operator()(double* target) const { *target = number_in(words.back(), option, false); }
+  void operator()(double* target) const {
+    const double value = number_in(words.back(), option, false);
+    // Where a default is told in words, the variable's own number stands for it: said, it would be
+    // taken for nothing said.
+    if (!option.default_text.empty() && value == *target)
+      throw UsageError(option.long_name(), words.back() + " is no value of it",
+                       "another one, or leave it out: " + option.default_text);
+    *target = value;
+  }
   void operator()(std::string* target) const { *target = chosen_word(words.back(), option); }
   void operator()(std::vector<std::string>* target) const {
     target->clear();
