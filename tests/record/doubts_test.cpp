@@ -64,6 +64,26 @@ TEST_CASE("a force that has lost its sign is told; one that gas keeps at one sig
   }
 }
 
+TEST_CASE("a yield force that leaps over zero has lost its sign all the same") {
+  const auto force_of = [](double yield, double viscous, double gas, double spring) {
+    Record record = sound_record();
+    for (std::size_t k = 0; k < record.size(); ++k) {
+      const double angle = 2 * std::numbers::pi * record.time[k], v = std::cos(angle);
+      samples(record, "force")[k] =
+          gas + spring * std::sin(angle) + std::copysign(yield, v) + viscous * v;
+    }
+    return record;
+  };
+  Record record = force_of(500, 250, 0, 0);
+  for (double& force : samples(record, "force")) force = std::abs(force);
+  CHECK(contains(only_doubt(record), "one sign whichever way the damper goes"));
+
+  // Weak dampers beside much gas, and beside a spring.
+  CHECK(doubts_about(force_of(500, 250, 1000, 0)).empty());
+  CHECK(doubts_about(force_of(20, 10, -2000, 30)).empty());
+  CHECK(doubts_about(force_of(5, 1, 2000, 800)).empty());
+}
+
 TEST_CASE("a force that sticks while the damper moves is told with its time") {
   Record record = sound_record();
   std::fill_n(samples(record, "force").begin() + 600, 200, 123.5);

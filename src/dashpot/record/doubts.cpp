@@ -1,6 +1,7 @@
 #include "dashpot/record/doubts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -489,9 +490,38 @@ double quantile(Samples& values, double share) {
   return *at;
 }
 
+/// Whether a force grows with the speed and still takes no energy out of the motion: that of an
+/// ideal yield, which leaps over zero, without its sign. Gas and springs keep the energy that
+/// friction and fluid take, and a force that nothing moves does not grow.
+bool rises_both_ways(const Samples& force, const Samples& displacement) {
+  constexpr double kMiddle = 0.5, kEnds = 0.9;  // of half of the stroke
+  constexpr double kStrokes = 4, kTaken = 0.05, kRise = 0.3;
+  const auto [least, most] = std::ranges::minmax(force);
+  const auto [low, high] = std::ranges::minmax(displacement);
+  const double span = most - least, size_of_least = std::min(std::abs(least), std::abs(most));
+
+  double way = 0, taken = 0;
+  std::array<Samples, 3> sizes;  // at the one end, in the middle, at the other end
+  for (std::size_t k = 1; k < force.size(); ++k) {
+    const double step = displacement[k] - displacement[k - 1];
+    way += std::abs(step);
+    taken += (0.5 * (force[k] + force[k - 1]) - 0.5 * (least + most)) * step;
+    const double place = (displacement[k] + displacement[k - 1] - low - high) / (high - low);
+    if (std::abs(place) < kMiddle || std::abs(place) > kEnds)
+      sizes[std::abs(place) < kMiddle ? 1 : place < 0 ? 0 : 2].push_back(std::abs(force[k]));
+  }
+  if (way < kStrokes * (high - low) || std::abs(taken) > kTaken * span * way) return false;
+  if (std::ranges::any_of(sizes, &Samples::empty)) return false;
+
+  // Far above the least at the speeds of the middle, both ways, and near it at both ends.
+  constexpr double kWeakest = 0.1, kUsual = 0.5;
+  const double slow = std::max(quantile(sizes[0], kUsual), quantile(sizes[2], kUsual));
+  return quantile(sizes[1], kWeakest) > slow + kRise * span && slow > size_of_least;
+}
+
 /// A force without its direction: it is of one sign and falls at either end of the stroke far below
-/// what it is in its middle both ways. A gas force that keeps the sign has its least in the middle,
-/// against compression, and a spring at one of the ends.
+/// what it is in its middle both ways, or grows both ways. A gas force that keeps the sign has its
+/// least in the middle, against compression, and a spring at one of the ends.
 std::optional<std::string> unsigned_force(const Samples& force, const Samples& displacement) {
   constexpr double kMiddle = 0.5, kEnds = 0.6;  // of half of the stroke
   constexpr double kFar = 0.3, kWeakest = 0.1;
@@ -509,8 +539,9 @@ std::optional<std::string> unsigned_force(const Samples& force, const Samples& d
     if (place < -kEnds) below = std::min(below, size);
     if (place > kEnds) above = std::min(above, size);
   }
-  if (middle.empty() || std::max(below, above) > kFar * quantile(middle, kWeakest))
-    return std::nullopt;
+  const bool falls_far =
+      !middle.empty() && std::max(below, above) <= kFar * quantile(middle, kWeakest);
+  if (!falls_far && !rises_both_ways(force, displacement)) return std::nullopt;
   return "the force has one sign whichever way the damper goes, and is least at both ends of the "
          "stroke: it seems to be a size that has lost its direction; record or export it with its "
          "sign";
