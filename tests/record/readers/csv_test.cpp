@@ -197,6 +197,13 @@ TEST_CASE("whole numbers in groups of three are no decimals") {
   CHECK(read_text("t;F\n0,005;987\n0,010;1,124\n").columns[1].values[1] == 1.124);
 }
 
+TEST_CASE("decimal commas in quotes are none that separate") {
+  const RawTable table = read_text("t [s],F [N]\n\"0,005\",\"1,2\"\n\"0,010\",\"-3,5\"\n");
+  CHECK(table.columns[0].values == std::vector<double>{0.005, 0.01});
+  CHECK(table.columns[1].values == std::vector<double>{1.2, -3.5});
+  CHECK(read_text("t,F\n0,\"1,093.60\"\n1,\"2.5\"\n").columns[1].values[0] == 1093.6);
+}
+
 TEST_CASE("an apostrophe or a blank that breaks no line stands between thousands alone") {
   for (const std::string mark : {"'", "\u2019", "\u202F", "\u00A0", "\x92", "\xA0"}) {
     const RawTable table =

@@ -435,8 +435,15 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
 
 CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file,
                          std::optional<char> known_separator) {
-  constexpr std::array<std::pair<char, char>, 7> kCandidates{
-      {{'\t', '.'}, {';', '.'}, {',', '.'}, {'\t', ','}, {';', ','}, {' ', '.'}, {' ', ','}}};
+  // A decimal comma between commas stands in quotes.
+  constexpr std::array<std::pair<char, char>, 8> kCandidates{{{'\t', '.'},
+                                                              {';', '.'},
+                                                              {',', '.'},
+                                                              {'\t', ','},
+                                                              {';', ','},
+                                                              {' ', '.'},
+                                                              {' ', ','},
+                                                              {',', ','}}};
   Guess best;
   for (const auto& [separator, decimal] : kCandidates) {
     if (known_separator && separator != *known_separator) continue;
