@@ -124,6 +124,8 @@ TEST_CASE("wrong input is refused with its place") {
             "'Peak force [N]' not used: 'Peak force' is not a measurement by its name"));
   CHECK(has(message_for("a.csv", good + "0.2,abc,3\n0.3,2,3\n"),
             "a.csv:4: displacement (x_mm) is 'abc', not a finite number"));
+  CHECK(has(message_for("a.csv", "t;x [mm];F [N]\n0;1,5;2,5\n0,1;2,5;7.415\n"),
+            "a.csv:3: force (F [N]) is '7.415', and the file's decimal sign is ',': in thousands"));
   CHECK(has(message_for("a.csv", good + "0.2,2,nan\n0.3,2,3\n"), "a.csv:4: force (F_N) is 'nan'"));
   CHECK(has(message_for("a.csv", good + "0.2,2,inf\n0.3,2,3\n"), "a.csv:4: force (F_N) is 'inf'"));
   CHECK(has(message_for("a.csv", good + "0.2,2,\n0.3,2,3\n"), "a.csv:4: force (F_N) is empty"));

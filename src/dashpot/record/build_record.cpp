@@ -99,6 +99,14 @@ void require_numbers(const RawTable& table, const ColumnUse& use, bool as_given)
   const RawColumn& column = table.columns[use.column];
   if (!column.bad) return;
   const std::string what = use.channel + " (" + label(column, use.column) + ") is ";
+
+  // A number with the other sign: nobody knows whether it stands before decimals.
+  for (const auto& [sign, usual] : {std::pair{'.', ','}, {',', '.'}})
+    if (column.bad->text.find(sign) != std::string::npos && parse_number(column.bad->text, sign))
+      throw Error(table.where(column.bad->row),
+                  what + "'" + column.bad->text + "', and the file's decimal sign is '" + usual +
+                      "': in thousands, or with decimals",
+                  "write all numbers with one decimal sign and nothing between thousands");
   throw Error(table.where(column.bad->row),
               what + (column.bad->text.empty() ? "empty"
                                                : "'" + column.bad->text + "', not a finite number"),
