@@ -68,6 +68,11 @@ TEST_CASE("columns are recognised by their names") {
       {"Current (milliamps)", "", "current", "milliamps"},
       {"Time (hh:mm:ss)", "", "time", ""},
       {"force.1", "", "force", ""},
+      // Symbols of which more is said, where the unit fits.
+      {"I meas [A]", "", "current", "A"},
+      {"F_damper_filt [kN]", "", "force", "kN"},
+      {"I_coil_A", "", "current", "A"},
+      {"Acc [g]", "", "acceleration", "g0"},
   };
   for (const Known& k : known) {
     CAPTURE(std::string(k.column));
@@ -81,7 +86,8 @@ TEST_CASE("columns are recognised by their names") {
 TEST_CASE("what may mean two things, or is no measurement, is not used") {
   for (const char* column :
        {"A", "V", "T", "Y", "fs", "Sample Number", "target force", "displacement setpoint [mm]",
-        "Weg Soll [mm]", "setpoint.I_A", "Peak force [N]", "x_F(2)", "force [mm]", ""}) {
+        "Weg Soll [mm]", "setpoint.I_A", "Peak force [N]", "x_F(2)", "force [mm]", "I meas",
+        "I set [A]", "I_motor [A]", "F_d [N]", "I meas [V]", ""}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").channel.empty());
   }

@@ -26,7 +26,7 @@ constexpr Names kNames[] = {
      "posicion posicao carrera curso weg hub extension travel",
      "x X d D s"},
     {"velocity", "velocity vel speed velocidad velocidade geschwindigkeit xdot dxdt", "v"},
-    {"acceleration", "acceleration accel aceleracion aceleracao beschleunigung", "a acc"},
+    {"acceleration", "acceleration accel aceleracion aceleracao beschleunigung", "a acc Acc ACC"},
     {"force", "force forc fuerza forca kraft load carga loadcell", "F f"},
     {"current", "current corriente corrente strom amperage", "I i"},
     {"voltage", "voltage volts voltaje tension tensao spannung", "E u U"},
@@ -92,6 +92,23 @@ std::vector<std::string> channels_of(std::string_view name) {
           std::ranges::find(channels, known.channel) == channels.end())
         channels.emplace_back(known.channel);
   return channels;
+}
+
+/// The channel of "I meas" or "F_damper", a symbol and words that say how or where it is measured;
+/// "" of any other name. Its unit must fit: symbols have many meanings.
+std::string channel_of_symbol(std::string_view name) {
+  constexpr std::string_view kMeasured =
+      "measured meas actual act filtered filt raw damper coil mr";
+  const std::size_t end = name.find_first_of(" _");
+  if (end == std::string_view::npos) return {};
+  const std::vector<std::string> words = words_of(name.substr(end));
+  if (words.empty() || !std::ranges::all_of(words, [&](const std::string& word) {
+        return contains_word(kMeasured, word);
+      }))
+    return {};
+  for (const Names& known : kNames)
+    if (contains_word(known.exact, name.substr(0, end))) return std::string(known.channel);
+  return {};
 }
 
 /// The first of them; "" when unknown.
@@ -181,8 +198,12 @@ NamedChannel resolve(const std::string& name, const std::string& given) {
             false};
   }
 
-  // Of two channels the unit decides.
+  // Of two channels the unit decides, and of a symbol that more is said of.
   std::vector<std::string> channels = channels_of(name);
+  if (channels.empty() && parsed)
+    if (const std::string channel = channel_of_symbol(name);
+        !channel.empty() && fits(channel, *parsed))
+      return {channel, unit, {}, false};
   if (channels.empty()) return {};
   if (channels.size() > 1 && parsed)
     std::erase_if(channels, [&](const std::string& one) { return !fits(one, *parsed); });
