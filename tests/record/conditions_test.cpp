@@ -22,6 +22,25 @@ TEST_CASE("a level in a name whose digits no number holds is in doubt") {
   CHECK(doubt_of("run_0,5A").empty());
 }
 
+TEST_CASE("a symbol and a number without a unit may be a level, and a counter is none") {
+  for (const auto& [name, word] : {std::pair{"run_I=0.5_f=1Hz", "I=0.5"},
+                                   {"I0.5", "I0.5"},
+                                   {"20mm_I_1.5", "I_1.5"},
+                                   {"test I=0,5", "I=0,5"},
+                                   {"U=12", "U=12"},
+                                   {"current0", "current0"},
+                                   {"run_I3", ""},
+                                   {"V2_final", ""},
+                                   {"I=0.5A", ""},
+                                   {"MIX0.5", ""},
+                                   {"I=", ""}}) {
+    CAPTURE(std::string(name));
+    CHECK(level_without_unit(name) == word);
+    // With its unit it is one.
+    if (!std::string(word).empty()) CHECK(split_name(std::string(word) + "A").level.has_value());
+  }
+}
+
 namespace {
 
 /// A sine of 4 Hz.

@@ -111,6 +111,18 @@ TEST_CASE("a force that is recorded the other way round is turned and said so") 
   CHECK(has(describe(dataset), "force sign flipped"));
 }
 
+TEST_CASE("a number behind a current's symbol in a name is told where it has no unit") {
+  const TemporaryFolder folder;
+  CHECK(has(describe(load(folder.write("run_I=0.5_f=1Hz.csv", sine_csv(1)))),
+            "'I=0.5' in the name of run_I=0.5_f=1Hz is taken as one only with its unit"));
+}
+
+TEST_CASE("a folder keeps its whole name, points and all") {
+  const TemporaryFolder folder;
+  folder.write("run2.5mm/run_1A.csv", sine_csv(1));
+  CHECK(load(folder.path() / "run2.5mm").name == "run2.5mm");
+}
+
 TEST_CASE("wrong input is refused with its place") {
   const std::string good = "t_s,x_mm,F_N\n0,1,2\n0.1,2,3\n";
   CHECK(has(message_for("a.csv", "t_s,x_mm\n0,1\n0.1,2\n"),

@@ -343,6 +343,28 @@ NameParts split_part_name(std::string_view stem, std::string_view part) {
   return {level, parts.rest};
 }
 
+std::string level_without_unit(std::string_view name) {
+  constexpr std::string_view kSymbols[] = {"I", "U", "V", "current", "Current", "voltage"};
+  for (std::size_t begin = 0; begin < name.size(); ++begin) {
+    if (begin > 0 && (is_letter(name[begin - 1]) || is_digit(name[begin - 1]))) continue;
+    for (const std::string_view symbol : kSymbols) {
+      std::size_t at = begin + symbol.size();
+      if (name.substr(begin, symbol.size()) != symbol || at >= name.size()) continue;
+      at += name[at] == '=' || name[at] == '_';
+
+      // The number up to the end of the word; behind the letter alone a whole one may count.
+      std::size_t end = end_of_number(name, at);
+      const bool has_comma = end > at && end + 1 < name.size() && name[end] == ',';
+      if (has_comma && is_digit(name[end + 1])) end = end_of_number(name, end + 1);
+      const bool is_alone = end == name.size() || !(is_letter(name[end]) || is_digit(name[end]));
+      const std::string_view word = name.substr(begin, end - begin);
+      const bool counts = symbol.size() == 1 && word.find_first_of("=.,") == std::string_view::npos;
+      if (end > at && is_alone && !counts) return std::string(word);
+    }
+  }
+  return {};
+}
+
 std::optional<KnownLevel> level_of_folder(std::string_view name) {
   const std::vector<NamedLevel> found = levels_in(name, 0, "folder name");
   if (found.empty()) return std::nullopt;

@@ -21,6 +21,11 @@ NameParts split_name(std::string_view stem);
 /// file's, and may have a blank before the unit, "0.5 A".
 NameParts split_part_name(std::string_view stem, std::string_view part);
 
+/// "I=0.5" of "run_I=0.5_f=1Hz": a word of a file's or a folder's name that is the symbol of a
+/// current or a voltage and a number without a unit, which may be its level; "" where there is
+/// none.
+std::string level_without_unit(std::string_view name);
+
 /// The level that the name of a folder states, with the words "folder name" as its basis.
 std::optional<KnownLevel> level_of_folder(std::string_view name);
 

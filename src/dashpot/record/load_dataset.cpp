@@ -534,7 +534,20 @@ class Loader {
                       "no drive channel: taken as one constant, unknown drive, as of a passive "
                       "damper; if the current differs between records, give it in the file names "
                       "(run_0.5A.csv), in manifest.csv or in a dataset file") +
-                      unused_columns());
+                      level_in_names() + unused_columns());
+  }
+
+  /// "; 'I=0.5' in the names tells one only with its unit"; "" where no name has such a word.
+  std::string level_in_names() const {
+    for (const Record& record : dataset_.records)
+      if (const std::string word = level_without_unit(record.name); !word.empty()) {
+        const std::string unit =
+            std::string_view("UVv").find(word.front()) != std::string::npos ? "V" : "A";
+        return "; '" + word + "' in the name of " + record.name +
+               " is taken as one only with its unit, '" + word + unit + "' or '" + word + "m" +
+               unit + "'";
+      }
+    return {};
   }
 
   /// "; if it is in a column that is not used ('I set [A]'), state that there"; "" where all are.

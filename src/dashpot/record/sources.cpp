@@ -72,7 +72,7 @@ DatasetFile nothing_stated(const std::vector<fs::path>& paths) {
   DatasetFile stated;
   fs::path first = fs::absolute(paths.front()).lexically_normal();
   if (first.filename().empty()) first = first.parent_path();
-  stated.name = without_gz(first).stem().string();
+  stated.name = (fs::is_directory(first) ? first.filename() : without_gz(first).stem()).string();
   stated.files.emplace_back().match = {"*"};
   return stated;
 }
