@@ -67,6 +67,12 @@ Names conditions(std::vector<Record> records, const Names& names) {
 
 }  // namespace
 
+TEST_CASE("letters within a word state no motion") {
+  for (const char* name : {"hammer_3", "comma", "summer 2026"})
+    CHECK(conditions({moved(0.004, 0)}, {name}) == Names{"4 mm 4 Hz"});
+  CHECK(conditions({moved(0.004, 0)}, {"sine 4_mm"}) == Names{"sine 4_mm"});
+}
+
 TEST_CASE("a bare number in a name that is the drive level is no part of the motion") {
   // At the end and within.
   CHECK(conditions({moved(0.004, 0), moved(0.004, 0.5), moved(0.008, 0), moved(0.008, 0.5)},

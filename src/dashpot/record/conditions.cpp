@@ -70,9 +70,16 @@ std::string describe_motion(const Motion& motion) {
   return motion.frequency > 0 ? text + " " + format_number(motion.frequency, 2) + " Hz" : text;
 }
 
+/// Whether mm or Hz stand behind a number somewhere: "hammer" states no motion.
 bool states_motion(const std::string& name) {
   const std::string text = lower(name);
-  return text.find("hz") != std::string::npos || text.find("mm") != std::string::npos;
+  for (const std::string_view unit : {"hz", "mm"})
+    for (std::size_t at = 0; (at = text.find(unit, at)) != std::string::npos; ++at) {
+      const std::string_view before = std::string_view(text).substr(0, at);
+      const std::size_t last = before.find_last_not_of("_- ");
+      if (last != std::string_view::npos && is_digit(before[last])) return true;
+    }
+  return false;
 }
 
 /// The last word of a name that is this number and nothing else taken out: of "test_4mm_4Hz_0.5"
