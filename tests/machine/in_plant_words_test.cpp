@@ -108,7 +108,8 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
                  "suspension); their values in kg, N/m, or 'unknown'"));
   CHECK(contains(refused(with("current: coil", "current: 1 V")),
                  "'1 V' is a level in V, not in A; 'voltage: 1 V'"));
-  CHECK(contains(refused(with("40 kg", "40 m")), "unsprung_mass"));
+  CHECK(contains(refused(with("40 kg", "40 m")),
+                 "car.yaml:4, unsprung_mass: 'm' is not a unit of it; it is counted in kg"));
   CHECK(contains(refused(with("40 kg", "-1 kg")), "between"));
   CHECK(contains(refused(with("to: 0.5 t", "to: 200 kg")), "its range 300 ... 200 is none"));
   CHECK(contains(refused(with("about: 350 kg", "about: 600 kg")), "'about' lies outside"));

@@ -104,13 +104,13 @@ PlantUnknown read_unknown(const Value& value, PlantUnknown unknown, std::string_
 void read_number(InPlantSetup& setup, const std::string& name, const std::string& text,
                  const std::string& where) {
   const ParameterRow& row = row_of(*setup.model, name, where);
-  const std::string at = where + ", " + name;
   if (text == "unknown") {
     setup.unknown.push_back(unknown_within(row));
-  } else if (const auto unknown = range_in(text, unknown_within(row), row.unit, at)) {
+  } else if (const auto unknown =
+                 range_in(text, unknown_within(row), row.unit, where + ", " + name)) {
     setup.unknown.push_back(*unknown);
   } else {
-    setup.known.emplace_back(name, parse_value(row, text, at));
+    setup.known.emplace_back(name, parse_value(row, text, where));
   }
 }
 
