@@ -129,6 +129,7 @@ TEST_CASE("a plant's file: what is wrong is named with what would be right") {
   CHECK(contains(refused(with("current: coil", "current: coil\nvoltage: 1")), "not by both"));
   CHECK(contains(refused(with("skip:", "skipp:")), "skipp"));
   CHECK(contains(refused(with("channel: level", "channel: road")), "both an input and a sensor"));
+  CHECK(contains(refused(with("channel: level", "channel: body")), "is stated as two sensors"));
   CHECK(contains(refused(kCar + "parameters2: 1\n"), "parameters2"));
 
   // All but the damper must be linear.

@@ -249,6 +249,12 @@ void require_setup(const InPlantSetup& setup) {
         throw Error(where + ", " + input.channel, "is both an input and a sensor",
                     "what moves the plant cannot judge the fit");
   }
+  for (auto sensor = setup.sensors.begin(); sensor != setup.sensors.end(); ++sensor)
+    if (std::find_if(setup.sensors.begin(), sensor, [&](const PlantSensor& other) {
+          return other.channel == sensor->channel;
+        }) != sensor)
+      throw Error(where + ", " + sensor->channel, "is stated as two sensors",
+                  "a channel of its own for each");
   for (const PlantSensor& sensor : setup.sensors)
     if (sensor.place.coordinate >= plant.size() || sensor.place.strut >= plant.struts.size())
       throw Error(where + ", " + sensor.channel, "stands where the plant has nothing");

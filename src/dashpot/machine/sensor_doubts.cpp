@@ -268,8 +268,9 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
         doubts.push_back(
             figure.recording + ", " + channel + ": the model is " +
             format_number(100 * figure.training / figure.rms, 3) +
-            " % of its rms away, further than from no motion at all: are its sign (the other way "
-            "round it is some 200 %), its unit, its time and what it measures right?");
+            " % of its rms away, further than from no motion at all: are its sign (a sensor that "
+            "is "
+            "met but for it is 200 % away), its unit, its time and what it measures right?");
   }
   // Intervals count what is left as chance, which so much is not.
   if (least > kFarAway)
