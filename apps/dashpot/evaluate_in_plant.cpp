@@ -135,6 +135,9 @@ int run_evaluate_in_plant(const PlantEvaluateSettings& settings, Console& consol
   for (const std::string& file : files)
     recordings.push_back(read_plant_recording(file, setup.channels()));
   if (const std::string note = without_units(recordings); !note.empty()) console.note(note);
+  if (const std::string note = unread_drives(recordings);
+      !note.empty() && setup.drive_channels().empty())
+    console.note(note);
 
   // The run, and what is to be said of it.
   PlantEvaluation told = evaluate_in_plant(

@@ -161,6 +161,9 @@ int run_in_plant(const InPlantSettings& asked, const RankingSettings& settings, 
   for (const std::string& file : files)
     recordings.push_back(read_plant_recording(file, setup.channels()));
   if (const std::string note = without_units(recordings); !note.empty()) console.note(note);
+  if (const std::string note = unread_drives(recordings);
+      !note.empty() && setup.drive_channels().empty())
+    console.note(note);
   const std::string left_out = still_parts(setup, recordings);
   prepare_results(settings.results);
   const std::unique_ptr<PlantFitStore> store = plant_fit_store(settings, console);

@@ -402,6 +402,9 @@ int run_observe(const ObserveSettings& settings, Console& console) {
   for (const std::string& name : recording_files(settings.recordings))
     recordings.push_back(read_plant_recording(name, setup.channels()));
   if (const std::string note = without_units(recordings); !note.empty()) console.note(note);
+  if (const std::string note = unread_drives(recordings);
+      !note.empty() && setup.drive_channels().empty())
+    console.note(note);
   if (!settings.truth.empty() && recordings.size() > 1 && !fs::is_directory(settings.truth))
     throw UsageError("--truth", "is one file for several recordings",
                      "a folder with a file of each recording's name");

@@ -218,6 +218,14 @@ TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") 
   CHECK(contains(wrong("t,level,push\n0,1,1\n2,2,2\n4,4,3\n"),
                  "time has no unit and steps of 2, which are no seconds of a plant; name the "
                  "column 't [ms]'"));
+  CHECK(contains(wrong("t [s],level,push\n0,1,1\n2,2,2\n4,4,3\n"),
+                 "time in s has steps of 2 s, which are no seconds of a plant; name the column "
+                 "'t [ms]'"));
+  CHECK(unread_drives({&recording, 1}).empty());
+  const PlantRecording driven = read("time [ms],level,push,coil [V],F [N]\n0,1,5,1,1\n2,2,6,1,1\n");
+  CHECK(
+      contains(unread_drives({&driven, 1}),
+               "coil [V]: not read, as the plant's file names no channel that drives the damper"));
   CHECK(without_units({&recording, 1}) ==
         "push: no unit in the columns' names, taken as SI; name them with it, as 'level [mm]' or "
         "'coil [A]'");

@@ -42,6 +42,12 @@ std::string si_text(const Unit& unit) {
   return "SI";
 }
 
+bool is_of_drive(const std::string& text) {
+  const auto unit = parse_unit(text);
+  return unit && (unit->dimension == parse_unit("A")->dimension ||
+                  unit->dimension == parse_unit("V")->dimension);
+}
+
 /// The step of stamps that lie on a uniform grid to a hundredth of it, as logs of few digits do; 0
 /// where they do not. A step that is a whole rate to a millionth is exactly that.
 double mean_step(std::span<const double> stamps) {
@@ -77,15 +83,17 @@ double mean_step(std::span<const double> stamps) {
               right);
 }
 
-/// Steps of half a second and more without a unit are samples or a logger's ms: no plant of a
-/// damper is recorded so slowly.
-void require_plausible_step(const RawTable& table, const std::string& column, double step) {
+/// Steps of half a second and more are samples or a logger's ms, whatever unit stands above them:
+/// no plant of a damper is recorded so slowly.
+void require_plausible_step(const RawTable& table, const NameAndUnit& time, double step) {
   constexpr double kLongest = 0.5;  // s
   if (step < kLongest) return;
+  const bool has_unit = !time.unit.empty();
   throw Error(table.file,
-              "time has no unit and steps of " + format_number(step, 3) +
+              (has_unit ? "time in " + time.unit + " has steps of " + format_number(step, 3) + " s"
+                        : "time has no unit and steps of " + format_number(step, 3)) +
                   ", which are no seconds of a plant",
-              "name the column '" + column + " [ms]', or write its seconds");
+              "name the column '" + time.name + " [ms]', or write its seconds");
 }
 
 void require_numbers(const RawTable& table, const RawColumn& column) {
@@ -117,6 +125,16 @@ std::string without_units(std::span<const PlantRecording> recordings) {
          "as 'level [mm]' or 'coil [A]'";
 }
 
+std::string unread_drives(std::span<const PlantRecording> recordings) {
+  for (const PlantRecording& recording : recordings)
+    if (!recording.unread_drives.empty())
+      return join(recording.unread_drives, ", ") +
+             ": not read, as the plant's file names no channel that drives the damper; state it "
+             "as " +
+             "'current: NAME' or 'voltage: NAME' if it does";
+  return {};
+}
+
 PlantRecording read_plant_recording(const std::filesystem::path& path,
                                     const std::vector<std::string>& wanted,
                                     const std::vector<std::string>& also) {
@@ -136,12 +154,12 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
 
   // Its time base: stated by the format, or by a column of time.
   if (table.sample_time) recording.sample_time = *table.sample_time;
-  std::string timed_without_unit;  // the column's name
+  NameAndUnit timed;
   for (const RawColumn& column : table.columns) {
     const auto [name, unit] = name_and_unit(column);
     if (!is_time(name) || recording.sample_time > 0) continue;
     require_numbers(table, column);
-    if (unit.empty()) timed_without_unit = column.name;
+    timed = {name, unit};
     const double factor = unit.empty() ? 1 : require_unit(unit, table.file + ", time").factor;
     recording.sample_time = factor * mean_step(column.values);
     if (recording.sample_time <= 0) refuse_steps(table, column.values, factor);
@@ -154,8 +172,10 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
   for (RawColumn& column : table.columns) {
     const auto [name, unit] = name_and_unit(column);
     if (std::ranges::find(wanted, name) == wanted.end() &&
-        std::ranges::find(also, name) == also.end())
+        std::ranges::find(also, name) == also.end()) {
+      if (is_of_drive(unit)) recording.unread_drives.push_back(column.name);
       continue;
+    }
     require_numbers(table, column);
     if (std::ranges::find(recording.channels, name, &Channel::name) != recording.channels.end())
       throw Error(table.file, "has two columns '" + name + "' (it has " + table.column_list() + ")",
@@ -177,8 +197,7 @@ PlantRecording plant_recording(RawTable table, const std::vector<std::string>& w
   for (const std::string& name : wanted)
     if (std::ranges::find(recording.channels, name, &Channel::name) == recording.channels.end())
       throw Error(table.file, "has no column '" + name + "'", "it has " + table.column_list());
-  if (!timed_without_unit.empty())
-    require_plausible_step(table, timed_without_unit, recording.sample_time);
+  if (!timed.name.empty()) require_plausible_step(table, timed, recording.sample_time);
   return recording;
 }
 

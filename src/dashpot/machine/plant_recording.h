@@ -17,7 +17,8 @@ struct PlantRecording {
   double sample_time = 0;   ///< s
   std::size_t samples = 0;  ///< of each channel
   std::vector<Channel> channels;
-  std::vector<std::string> without_unit;  ///< channels whose columns stated none
+  std::vector<std::string> without_unit;   ///< channels whose columns stated none
+  std::vector<std::string> unread_drives;  ///< columns in A or V that nobody asked for
 
   /// Throws Error that names the channels there are.
   const Channel& channel(std::string_view wanted) const;
@@ -40,6 +41,10 @@ PlantRecording read_plant_recording(const std::filesystem::path& path,
 
 /// Which of their channels stated no unit, in a sentence; empty: all stated one.
 std::string without_units(std::span<const PlantRecording> recordings);
+
+/// Which of their columns in A or V nobody asked for, as nothing that drives a damper by its
+/// plant's file, in a sentence; empty: none.
+std::string unread_drives(std::span<const PlantRecording> recordings);
 
 /// The same of a table that is at hand.
 PlantRecording plant_recording(RawTable table, const std::vector<std::string>& wanted,
