@@ -6,6 +6,8 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/machine/disagreeing_sensors.h"
+#include "dashpot/machine/in_plant_words.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -70,6 +72,53 @@ TEST_CASE("sensor_doubts: one flaw of a sensor in all recordings is named with i
       doubts_about([](double t) { return motion(t) + (std::fmod(t, 1) < 0.003 ? 90 : 0); }),
       "level: has most of its error in 80 samples"));
   CHECK_FALSE(contains(doubts_about([](double t) { return -motion(t); }), "az"));
+}
+
+TEST_CASE("sensors that disagree whatever the damper is are named with how many times they count") {
+  // Body and wheel of a quarter car, and the deflection between them, by motions that need no road.
+  const auto told = [](double body, double wheel, double level, bool has_wheel = true) {
+    InPlantSetup setup = parse_in_plant_setup(
+        "plant: quarter_car\n"
+        "parameters: {sprung_mass: unknown, unsprung_mass: 40 kg, spring_stiffness: 20 N/mm, "
+        "tyre_stiffness: unknown}\n"
+        "inputs: [{channel: road, kind: ground}]\n"
+        "sensors: [{channel: az_body, quantity: acceleration, at: body}, {channel: az_wheel, "
+        "quantity: acceleration, at: wheel}, {channel: level, quantity: deflection}]\n",
+        "car.yaml");
+    if (!has_wheel) setup.sensors[1].place.quantity = PlantQuantity::Velocity;
+    Random random(5);
+    InPlantTrace trace{.recording = "ride", .sample_time = 0.002, .training = 4000};
+    trace.measured.resize(3);
+    for (int k = 0; k < 5000; ++k) {
+      const double t = 0.002 * k;
+      const auto moves = [&](double amplitude, double rate, double phase) {
+        return amplitude * std::sin(rate * t + phase);
+      };
+      const auto bends = [&](double amplitude, double rate, double phase) {
+        return -rate * rate * moves(amplitude, rate, phase);
+      };
+      trace.measured[0].push_back(body * (bends(0.02, 8, 0) + bends(0.002, 31, 1)) +
+                                  0.05 * random.normal());
+      trace.measured[1].push_back(wheel * (bends(0.01, 8, 0.4) + bends(0.003, 61, 2)) +
+                                  0.05 * random.normal());
+      trace.measured[2].push_back(level * (moves(0.02, 8, 0) + moves(0.002, 31, 1) -
+                                           moves(0.01, 8, 0.4) - moves(0.003, 61, 2) + 0.3) +
+                                  level * 1e-4 * random.normal());
+    }
+    return join(disagreeing_sensors(setup, {trace}), " | ");
+  };
+  CHECK(told(1, 1, 1) == "");
+  CHECK(told(1.3, 0.8, 1) == "");
+  CHECK(contains(told(-1, 1, 1), "az_body: shows -"));
+  CHECK(contains(told(-1, 1, 1), "what level and az_wheel make of it"));
+  CHECK(contains(told(1, -1, 1), "az_wheel: shows -"));
+  CHECK(contains(told(1, 1, -1), "level: shows -"));
+  CHECK(contains(told(1, 1, 1000),
+                 "times what az_body and az_wheel make of it, whatever the damper "
+                 "is: is its unit right?"));
+  CHECK(contains(told(1, 1 / 9.80665, 1), "az_wheel: shows 0.1"));
+  CHECK(told(1, -1, 1, false) == "");
+  CHECK(told(0, -1, 1) == "");
 }
 
 TEST_CASE("noise_doubts: a sensor that nearly all is taken for noise of, and no other") {

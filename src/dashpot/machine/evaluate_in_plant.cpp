@@ -9,6 +9,7 @@
 #include "dashpot/error.h"
 #include "dashpot/machine/beyond_models.h"
 #include "dashpot/machine/damper_drive.h"
+#include "dashpot/machine/disagreeing_sensors.h"
 #include "dashpot/machine/observe.h"
 #include "dashpot/machine/plant_cases.h"
 #include "dashpot/machine/plant_residuals.h"
@@ -109,7 +110,9 @@ PlantEvaluation evaluate_in_plant(ObservedDampers dampers, const InPlantSetup& s
     if (!std::isfinite(figure.training))
       told.warnings.push_back(figure.recording + ": the plant diverges (" + figure.channel + ")");
   if (!told.warnings.empty()) return told;
-  told.warnings = sensor_doubts(setup, told.sensors, told.traces);
+  told.warnings = disagreeing_sensors(setup, told.traces);
+  std::ranges::move(sensor_doubts(setup, told.sensors, told.traces),
+                    std::back_inserter(told.warnings));
   if (told.step_error > kMuch)
     told.warnings.push_back("half the integrator's step changes a sensor by " +
                             format_number(100 * told.step_error, 2) + " % of its error");

@@ -14,6 +14,7 @@
 #include "dashpot/machine/bench_start.h"
 #include "dashpot/machine/beside_noise.h"
 #include "dashpot/machine/damper_drive.h"
+#include "dashpot/machine/disagreeing_sensors.h"
 #include "dashpot/machine/force_leap.h"
 #include "dashpot/machine/found_noise.h"
 #include "dashpot/machine/in_plant_report.h"
@@ -605,8 +606,9 @@ InPlantReport fit_from_starts(const Law& law, InPlantSetup setup,
     if (std::isinf(figure.held_back))
       report.warnings.push_back(figure.recording + ": the plant diverges on the time held back (" +
                                 figure.channel + ")");
-  std::ranges::move(sensor_doubts(setup, report.sensors, report.traces),
-                    std::back_inserter(report.warnings));
+  for (const auto& told : {disagreeing_sensors(setup, report.traces),
+                           sensor_doubts(setup, report.sensors, report.traces)})
+    std::ranges::copy(told, std::back_inserter(report.warnings));
   if (is_far_off(setup, report.traces)) {
     drop_intervals(report);
   } else if (beside.any_force) {
