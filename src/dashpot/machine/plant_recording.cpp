@@ -130,8 +130,7 @@ std::string unread_drives(std::span<const PlantRecording> recordings) {
     if (!recording.unread_drives.empty())
       return join(recording.unread_drives, ", ") +
              ": not read, as the plant's file names no channel that drives the damper; state it "
-             "as " +
-             "'current: NAME' or 'voltage: NAME' if it does";
+             "as 'current: NAME' or 'voltage: NAME' if it does";
   return {};
 }
 

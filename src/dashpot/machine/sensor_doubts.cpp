@@ -269,8 +269,7 @@ std::vector<std::string> sensor_doubts(const InPlantSetup& setup,
             figure.recording + ", " + channel + ": the model is " +
             format_number(100 * figure.training / figure.rms, 3) +
             " % of its rms away, further than from no motion at all: are its sign (a sensor that "
-            "is "
-            "met but for it is 200 % away), its unit, its time and what it measures right?");
+            "is met but for it is 200 % away), its unit, its time and what it measures right?");
   }
   // Intervals count what is left as chance, which so much is not.
   if (least > kFarAway)
