@@ -159,7 +159,7 @@ TEST_CASE("identify --in: what cannot be used is said before the work" *
           doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string data =
-      folder.write("a.csv", "time [s],push [N],x [mm]\n0,1,0\n1,2,1\n2,3,1\n").string();
+      folder.write("a.csv", "time [s],push [N],x [mm]\n0,1,0\n0.01,2,1\n0.02,3,1\n").string();
   const auto output = [&](const std::string& rest) {
     return run_dashpot("identify " + data + ' ' + rest).output;
   };

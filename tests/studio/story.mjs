@@ -23,6 +23,7 @@ const lying = "5_mm_3_Hz_1_V.csv";
 writeFileSync(join(bench, lying), readFileSync(join(bench, lying), "utf8").replace("F_N", "F_kN"));
 const messy = join(scratch, "messy");
 mkdirSync(messy);
+mkdirSync(folder);
 writeFileSync(join(messy, "notes.txt"), "bring the spanner");
 mkdirSync(join(messy, "deep", ".hidden"), {recursive: true});
 writeFileSync(join(messy, "deep", ".hidden", "secret.csv"), "t_s,x_mm,F_N\n0,1,2\n");
