@@ -24,10 +24,10 @@ constexpr std::array<std::string_view, 32> kMathFunctions{
     "cosh",  "exp",   "exp2", "expm1", "fabs",  "floor", "fmax",  "fmin", "fmod", "hypot",    "log",
     "log10", "log1p", "log2", "pow",   "round", "sin",   "sinh",  "sqrt", "tan",  "trunc"};
 
+constexpr std::string_view kMathInclude = "#include <math.h>\n";
 /// tanh in single precision within 4e-7, which takes less than half of a C library's instructions
 /// on a small processor; networks spend their time in it. The coefficients make the largest
 /// relative error of x P(x^2) / Q(x^2) least up to where a float's tanh is 1.
-constexpr std::string_view kMathInclude = "#include <math.h>\n";
 constexpr std::string_view kSingleTanh = R"(
 /* tanh, within 4e-7: x P(x^2) / Q(x^2), quicker than most C libraries are. */
 static inline float tanh_single(float x) {
