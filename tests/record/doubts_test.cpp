@@ -57,6 +57,11 @@ TEST_CASE("a force that has lost its sign is told; one that gas keeps at one sig
   Record record = sound_record();
   for (double& force : samples(record, "force")) force = std::abs(force - 60);
   CHECK(contains(only_doubt(record), "one sign whichever way the damper goes"));
+
+  // Nor one that a sensor of one direction cuts off at 0.
+  record = sound_record();
+  for (double& force : samples(record, "force")) force = std::max(force, 0.0);
+  for (const std::string& doubt : doubts_about(record)) CHECK_FALSE(contains(doubt, "one sign"));
   for (const double gas : {-800.0, -900.0, 900.0}) {
     record = sound_record();
     for (double& force : samples(record, "force")) force += gas;

@@ -540,7 +540,7 @@ std::optional<std::string> unsigned_force(const Samples& force, const Samples& d
     if (place > kEnds) above = std::min(above, size);
   }
   const bool falls_far =
-      !middle.empty() && std::max(below, above) <= kFar * quantile(middle, kWeakest);
+      !middle.empty() && std::max(below, above) < kFar * quantile(middle, kWeakest);
   if (!falls_far && !rises_both_ways(force, displacement)) return std::nullopt;
   return "the force has one sign whichever way the damper goes, and is least at both ends of the "
          "stroke: it seems to be a size that has lost its direction; record or export it with its "

@@ -29,4 +29,11 @@ void standardise(Mlp& mlp, const TrainingSamples& samples) {
   std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
 }
 
+Mlp untrained(std::size_t inputs, const std::vector<std::size_t>& hidden, Activation kind,
+              const TrainingSamples& samples) {
+  Mlp mlp = without_weights(inputs, hidden, kind);
+  standardise(mlp, samples);
+  return mlp;
+}
+
 }  // namespace dashpot

@@ -25,11 +25,11 @@ constexpr std::array<std::string_view, 32> kMathFunctions{
     "log10", "log1p", "log2", "pow",   "round", "sin",   "sinh",  "sqrt", "tan",  "trunc"};
 
 constexpr std::string_view kMathInclude = "#include <math.h>\n";
-/// tanh in single precision within 4e-7, which takes less than half of a C library's instructions
-/// on a small processor; networks spend their time in it. The coefficients make the largest
+/// tanh in single precision within 4e-7: on a Cortex-M4F some 60 instructions fewer than newlib's,
+/// and networks spend their time in it. The coefficients make the largest
 /// relative error of x P(x^2) / Q(x^2) least up to where a float's tanh is 1.
 constexpr std::string_view kSingleTanh = R"(
-/* tanh, within 4e-7: x P(x^2) / Q(x^2), quicker than most C libraries are. */
+/* tanh, within 4e-7: x P(x^2) / Q(x^2), on a small processor quicker than newlib's. */
 static inline float tanh_single(float x) {
   const float most = 9.02F;
   const float y = (x > most) ? most : ((x < -most) ? -most : x), z = y * y;

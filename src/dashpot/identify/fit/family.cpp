@@ -112,16 +112,6 @@ TrainingSamples samples_of(const FamilyPreset& preset, const FamilyBaseline& bas
   return samples;
 }
 
-/// The preset's network as designed, its scales those of the samples.
-Mlp untrained(const FamilyPreset& preset, const NetworkDesign& design,
-              const TrainingSamples& samples) {
-  Mlp mlp =
-      without_weights(preset.inputs.size(), design.hidden.empty() ? preset.hidden : design.hidden,
-                      design.activation.value_or(Activation::Relu));
-  standardise(mlp, samples);
-  return mlp;
-}
-
 struct LearnedForce {
   std::shared_ptr<const FamilyForce> force;  ///< none where the training failed
   double build_spread = 0;
@@ -150,7 +140,10 @@ LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& base
   const SamplesOf samples_of_records = [&](const std::vector<Record>& records) {
     return samples_of(preset, baseline, family_records(records, drive_unit));
   };
-  const Mlp start = untrained(preset, options.network, samples_of_records(training));
+  const NetworkDesign& design = options.network;
+  const Mlp start =
+      untrained(preset.inputs.size(), design.hidden.empty() ? preset.hidden : design.hidden,
+                design.activation.value_or(Activation::Relu), samples_of_records(training));
   TrainedEnsemble trained = train_networks(start, training, samples_of_records, options);
   report.status = trained.status;
   report.message = trained.message;

@@ -14,16 +14,6 @@ double input_of(const DamperInput& input, std::string_view name) {
   return name == "velocity" ? input.velocity : input.current;
 }
 
-/// The preset's network as designed, its scales those of the samples.
-Mlp untrained(const NetworkPreset& preset, const NetworkDesign& design,
-              const TrainingSamples& samples) {
-  Mlp mlp =
-      without_weights(preset.inputs.size(), design.hidden.empty() ? preset.hidden : design.hidden,
-                      design.activation.value_or(Activation::Tanh));
-  standardise(mlp, samples);
-  return mlp;
-}
-
 }  // namespace
 
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
@@ -44,7 +34,10 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
   };
 
   // Train the members.
-  const Mlp start = untrained(preset, options.network, samples_of(training));
+  const NetworkDesign& design = options.network;
+  const Mlp start =
+      untrained(preset.inputs.size(), design.hidden.empty() ? preset.hidden : design.hidden,
+                design.activation.value_or(Activation::Tanh), samples_of(training));
   TrainedEnsemble trained = train_networks(start, training, samples_of, options);
 
   FitReport report;
